@@ -26,7 +26,7 @@ namespace
                 "the name of a directory");
     section.add("Random seed", parameters.random_seed,
                 "Seed of all random numbers that a run draws, so that it can be repeated exactly.",
-                Range::between(0, 4294967295.));
+                Range::non_negative());
   }
 
   /** Vertices of a lattice on the box, so coarse that it costs nothing and so odd that it holds the centre.
