@@ -1,0 +1,68 @@
+#pragma once
+
+#include <gemmule/parameters/discretisation.h>
+#include <gemmule/parameters/domain.h>
+#include <gemmule/parameters/fluid.h>
+#include <gemmule/parameters/membrane.h>
+#include <gemmule/parameters/mesh.h>
+#include <gemmule/parameters/output.h>
+#include <gemmule/parameters/time_stepping.h>
+
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+namespace Gemmule::Parameters
+{
+/**
+ * All parameters of a simulation. A default-constructed object is a complete, valid case in 2D; tests change
+ * members, the program calls parse().
+ */
+struct AllParameters
+{
+  /** Space dimension, 2 or 3. */
+  unsigned int dimension = 2;
+  /** Simulated time at which the run ends. */
+  double end_time = 2.;
+  std::string output_directory = "results";
+  unsigned int random_seed = 0;
+
+  Domain domain;
+  Fluid fluid;
+  Membrane membrane;
+  Regularisation regularisation;
+  ArclengthConstraint arclength;
+  Mesh mesh;
+  Flow flow;
+  Surface surface;
+  TimeStepping time_stepping;
+  Output output;
+
+  /** Declares every parameter, with the present values as defaults. */
+  void add_parameters(dealii::ParameterHandler &prm);
+
+  /**
+   * Checks every section, the relations between them, and that all expressions can be evaluated.
+   * @throws ParameterError about the first thing that is wrong
+   */
+  void check() const;
+
+  /**
+   * Reads a parameter file and then overrides of the form "Section/Subsection/Key=value", and checks the
+   * result. What is not given keeps its present value; corners and boundary velocity that are not given
+   * adapt to the dimension.
+   *
+   * @param file path of the parameter file; empty: no file
+   * @throws UserError with file and line (or "command line") in its message
+   */
+  void parse(const std::string &file, const std::vector<std::string> &overrides = {});
+
+  /** Writes every parameter, with description and default, in the syntax that parse() reads. */
+  void print(std::ostream &out) const;
+};
+} // namespace Gemmule::Parameters
+
+namespace Gemmule
+{
+using Parameters::AllParameters;
+}

@@ -1,0 +1,31 @@
+#pragma once
+
+namespace dealii
+{
+class ParameterHandler;
+}
+
+namespace Gemmule::Parameters
+{
+/** Section "Mesh": levels of refinement and when to remesh (design, section 2, "Adaptivity"). */
+struct Mesh
+{
+  /** Uniform refinement of the box: its shortest edge is divided into 2^level cells. */
+  unsigned int bulk_level = 3;
+  /** Level of the cells that the membrane cuts. */
+  unsigned int membrane_level = 6;
+  /** Level of the cut cells where the composition is between the two bounds. */
+  unsigned int phase_boundary_level = 7;
+  /** Layers of cells at the finest level on each side of the cut cells. */
+  unsigned int membrane_layers = 2;
+  double composition_lower = 0.05;
+  double composition_upper = 0.95;
+  /** Time steps from one remeshing to the next, at most. */
+  unsigned int remeshing_interval = 10;
+  unsigned int largest_number_of_cells = 200000;
+
+  void add_parameters(dealii::ParameterHandler &prm);
+  /** @throws ParameterError unless bulk <= membrane <= phase boundary level and lower < upper bound */
+  void check() const;
+};
+} // namespace Gemmule::Parameters

@@ -1,0 +1,28 @@
+#pragma once
+
+namespace dealii
+{
+class ParameterHandler;
+}
+
+namespace Gemmule::Parameters
+{
+/** Section "Time stepping": step size control (design, section 2, "Coupling and time"). */
+struct TimeStepping
+{
+  /** false: all steps have the size #initial_step. */
+  bool adaptive = true;
+  double initial_step = 1e-3;
+  double smallest_step = 1e-7;
+  double largest_step = 0.05;
+  /** Local error of shape and composition that a step may make. */
+  double tolerance = 1e-4;
+  double largest_growth = 1.5;
+  /** C of dt <= C h Ca / max|sigma|. */
+  double interface_courant_number = 1.;
+
+  void add_parameters(dealii::ParameterHandler &prm);
+  /** @throws ParameterError unless smallest <= initial <= largest step */
+  void check() const;
+};
+} // namespace Gemmule::Parameters
