@@ -2,10 +2,10 @@
 
 namespace Gemmule
 {
-  EnergyDerivatives QuarticDoubleWell::evaluate(const double f, const double fbar) const
-  {
-    const double c = f / fbar;
-    const double b = c * (1. - c);
-    return density_of_composition(c, fbar, 0.25 * b * b, 0.5 * b * (1. - 2. * c), 0.5 - 3. * b);
-  }
+EnergyDerivatives QuarticDoubleWell::evaluate(const double f, const double fbar) const
+{
+  const double c = f / fbar;
+  const double b = c * (1. - c);
+  return density_of_composition(c, fbar, 0.25 * b * b, 0.5 * b * (1. - 2. * c), 0.5 - 3. * b);
+}
 } // namespace Gemmule

@@ -1,23 +1,22 @@
 #include <gemmule/time/bdf.h>
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
+#include <gtest/gtest.h>
 
 using namespace Gemmule;
 
 namespace
 {
-  /** Largest error of derivative and extrapolation for y = t^power at t = 0.7 with steps dt and dt / ratio. */
-  double error(const BdfCoefficients &bdf, const unsigned int power, const double dt, const double ratio)
-  {
-    const auto y = [power](double t) { return std::pow(t, power); };
-    const double t = 0.7, t1 = t - dt, t2 = t1 - dt / ratio;
-    const double derivative = (bdf.a0 * y(t) + bdf.a1 * y(t1) + bdf.a2 * y(t2)) / dt;
-    return std::max(std::abs(derivative - (power == 0 ? 0. : power * std::pow(t, power - 1.))),
-                    power > 1 ? 0. : std::abs(bdf.e1 * y(t1) + bdf.e2 * y(t2) - y(t)));
-  }
+/** Largest error of derivative and extrapolation for y = t^power at t = 0.7 with steps dt and dt / ratio. */
+double error(const BdfCoefficients &bdf, const unsigned int power, const double dt, const double ratio)
+{
+  const auto y = [power](double t) { return std::pow(t, power); };
+  const double t = 0.7, t1 = t - dt, t2 = t1 - dt / ratio;
+  const double derivative = (bdf.a0 * y(t) + bdf.a1 * y(t1) + bdf.a2 * y(t2)) / dt;
+  return std::max(std::abs(derivative - (power == 0 ? 0. : power * std::pow(t, power - 1.))),
+                  power > 1 ? 0. : std::abs(bdf.e1 * y(t1) + bdf.e2 * y(t2) - y(t)));
+}
 } // namespace
 
 TEST(Bdf, SecondOrderIsExactForParabolasAtAnyStepRatio)
