@@ -51,7 +51,7 @@ void CellLocator<dim>::reinit(const Triangulation<dim> &triangulation)
   for (const auto &cell : triangulation.active_cell_iterators())
     if (cell->is_locally_owned())
     {
-      Coordinates i;
+      Coordinates i{};
       integer_coordinates(cell->center(), i);
       const unsigned int level = cell->level();
       cell_of_key[level].emplace(key(i, finest_level - level), cells.size());
@@ -89,7 +89,7 @@ std::uint64_t CellLocator<dim>::key(const Coordinates &i, const unsigned int shi
 template <int dim>
 const typename CellLocator<dim>::Cell *CellLocator<dim>::find(const Point<dim> &x) const
 {
-  Coordinates i;
+  Coordinates i{};
   if (!integer_coordinates(x, i))
     return nullptr;
   for (const unsigned int level : used_levels)
