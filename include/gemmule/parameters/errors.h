@@ -1,0 +1,47 @@
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+namespace Gemmule
+{
+/**
+ * Something that the user can correct: a parameter, the command line, a file. The message is printed as it
+ * is, so it names the place and the remedy. The program ends with exit code 1.
+ */
+class UserError : public std::runtime_error
+{
+public:
+  using std::runtime_error::runtime_error;
+};
+
+/**
+ * A computation that cannot go on (no convergence, time step too small, membrane at the wall). The message
+ * says what happened and what usually helps. The program ends with exit code 2.
+ */
+class SimulationError : public std::runtime_error
+{
+public:
+  using std::runtime_error::runtime_error;
+};
+
+/**
+ * A parameter whose value is not acceptable. It knows which one, so that the parser can add the file and
+ * the line that set it.
+ */
+class ParameterError : public UserError
+{
+public:
+  /**
+   * @param parameter full name, sections separated by "/", for example "Fluid/Capillary number"
+   * @param complaint what is wrong and what to do; the message is "<parameter>: <complaint>"
+   */
+  ParameterError(const std::string &parameter, const std::string &complaint)
+      : UserError(parameter + ": " + complaint), parameter(parameter)
+  {
+  }
+
+  /** Full name of the parameter. */
+  const std::string parameter;
+};
+} // namespace Gemmule
