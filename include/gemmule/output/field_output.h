@@ -36,10 +36,11 @@ public:
   void write(const dealii::DataOutInterface<dim, dim> &data, double time);
 
 private:
-  void resume(double resume_after_time);
+  void find_earlier_files(double resume_after_time);
 
   const std::string directory;
   const MPI_Comm communicator;
-  std::vector<dealii::XDMFEntry> entries;
+  unsigned int n_written = 0;
+  std::vector<dealii::XDMFEntry> entries; ///< on rank 0
 };
 } // namespace Gemmule

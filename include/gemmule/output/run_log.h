@@ -5,6 +5,7 @@
 #include <functional>
 #include <iosfwd>
 #include <mpi.h>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
@@ -13,7 +14,7 @@ namespace Gemmule
 {
 /**
  * Messages of a run, to log.txt and to the console, and a line that shows how far it is. Rank 0 writes;
- * every rank may call, nothing is collective.
+ * every rank may call; only construction is collective.
  */
 class RunLog
 {
@@ -73,8 +74,7 @@ private:
   std::set<std::string> warnings_given;
   std::size_t open_line_length = 0;           ///< characters of the progress line that is on the terminal
   std::deque<std::pair<double, double>> pace; ///< (wall clock, simulated time) of the last minute
-  double last_progress_line = 0.;             ///< wall clock
-  bool has_shown_progress = false;
+  std::optional<double> last_shown;           ///< wall clock of the last progress line
 };
 
 /** "42 s", "3 min 05 s", "2 h 07 min"; "?" when not finite. */
