@@ -1,3 +1,4 @@
+#include <gemmule/output/disk.h>
 #include <gemmule/output/hdf5_file.h>
 #include <gemmule/parameters/errors.h>
 
@@ -24,6 +25,17 @@ namespace
   };
 } // namespace
 
+Hdf5Silence::Hdf5Silence()
+{
+  H5Eget_auto2(H5E_DEFAULT, &messages, &messages_data);
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+}
+
+Hdf5Silence::~Hdf5Silence()
+{
+  H5Eset_auto2(H5E_DEFAULT, messages, messages_data);
+}
+
 template <typename Result>
 Result Hdf5File::check(const Result result, const std::string &doing) const
 {
@@ -37,11 +49,11 @@ Result Hdf5File::check(const Result result, const std::string &doing) const
                         "with --resume.");
 }
 
-Hdf5File::Hdf5File(const std::string &path, const Mode mode) : path(path), for_reading(mode == Mode::read)
+Hdf5File::Hdf5File(const std::string &path, const Mode mode, const std::size_t growth)
+    : path(path), for_reading(mode == Mode::read)
 {
-  H5Eget_auto2(H5E_DEFAULT, &messages, &messages_data);
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-
+  if (!for_reading)
+    reserve_space(path, growth + size_of_bookkeeping);
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   // Handles that an exception leaves open must not keep the file open.
   H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
@@ -51,8 +63,6 @@ Hdf5File::Hdf5File(const std::string &path, const Mode mode) : path(path), for_r
     file = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access);
   else
     file = H5Fopen(path.c_str(), mode == Mode::modify ? H5F_ACC_RDWR : H5F_ACC_RDONLY, access);
-  if (file < 0)
-    H5Eset_auto2(H5E_DEFAULT, messages, messages_data);
   check(file, "open");
 }
 
@@ -60,7 +70,6 @@ Hdf5File::~Hdf5File()
 {
   if (file >= 0)
     H5Fclose(file);
-  H5Eset_auto2(H5E_DEFAULT, messages, messages_data);
 }
 
 void Hdf5File::close()
