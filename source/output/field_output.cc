@@ -1,8 +1,10 @@
+#include <gemmule/output/disk.h>
 #include <gemmule/output/field_output.h>
 #include <gemmule/output/hdf5_file.h>
 #include <gemmule/output/rank_zero.h>
 #include <gemmule/parameters/errors.h>
 
+#include <deal.II/base/geometry_info.h>
 #include <deal.II/base/mpi.h>
 
 #include <cmath>
@@ -35,6 +37,17 @@ namespace
         entry.add_attribute(field, extent.size() > 1 ? extent[1] : 1);
       }
     return entry;
+  }
+
+  /** Bytes that this rank contributes to a file, with some more for HDF5 itself. */
+  template <int dim>
+  std::size_t n_bytes_here(const dealii::DataOutBase::DataOutFilter &filter)
+  {
+    std::size_t numbers_per_node = dim;
+    for (unsigned int set = 0; set < filter.n_data_sets(); ++set)
+      numbers_per_node += filter.get_data_set_dim(set);
+    return filter.n_nodes() * numbers_per_node * sizeof(double) +
+           filter.n_cells() * dealii::GeometryInfo<dim>::vertices_per_cell * sizeof(unsigned int) + 65536;
   }
 
   template <int dim>
@@ -93,10 +106,14 @@ void FieldWriter<dim>::write(const dealii::DataOutInterface<dim, dim> &data, con
       // Neighbours disagree on what belongs to a cell, so each keeps its own vertices.
       dealii::DataOutBase::DataOutFilterFlags(/*filter_duplicate_vertices =*/false,
                                               /*xdmf_hdf5_output =*/true));
+  data.write_filtered_data(filter);
+  const std::size_t n_bytes = dealii::Utilities::MPI::sum(n_bytes_here<dim>(filter), communicator);
+  on_rank_zero(communicator, [&]() { reserve_space(path, n_bytes); });
+
   bool failed_here = false;
   try
   {
-    data.write_filtered_data(filter);
+    const Hdf5Silence silence;
     data.write_hdf5_parallel(filter, path, communicator);
   }
   catch (const std::exception &)

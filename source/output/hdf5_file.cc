@@ -1,3 +1,4 @@
+#include <gemmule/output/disk.h>
 #include <gemmule/output/hdf5_file.h>
 #include <gemmule/parameters/errors.h>
 
@@ -8,7 +9,10 @@ namespace Gemmule
 {
 namespace
 {
-  /** Closes a handle at the end of its scope. */
+  /** Bytes that HDF5 may add for itself in one session: headers of some twenty objects, the root's index. */
+constexpr std::size_t size_of_bookkeeping = 131072;
+
+/** Closes a handle at the end of its scope. */
   class Handle
   {
   public:
@@ -24,6 +28,17 @@ namespace
   };
 } // namespace
 
+Hdf5Silence::Hdf5Silence()
+{
+  H5Eget_auto2(H5E_DEFAULT, &messages, &messages_data);
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+}
+
+Hdf5Silence::~Hdf5Silence()
+{
+  H5Eset_auto2(H5E_DEFAULT, messages, messages_data);
+}
+
 template <typename Result>
 Result Hdf5File::check(const Result result, const std::string &doing) const
 {
@@ -37,11 +52,11 @@ Result Hdf5File::check(const Result result, const std::string &doing) const
                         "with --resume.");
 }
 
-Hdf5File::Hdf5File(const std::string &path, const Mode mode) : path(path), for_reading(mode == Mode::read)
+Hdf5File::Hdf5File(const std::string &path, const Mode mode, const std::size_t growth)
+    : path(path), for_reading(mode == Mode::read)
 {
-  H5Eget_auto2(H5E_DEFAULT, &messages, &messages_data);
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-
+  if (!for_reading)
+    reserve_space(path, growth + size_of_bookkeeping);
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   // Handles that an exception leaves open must not keep the file open.
   H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
@@ -51,8 +66,6 @@ Hdf5File::Hdf5File(const std::string &path, const Mode mode) : path(path), for_r
     file = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access);
   else
     file = H5Fopen(path.c_str(), mode == Mode::modify ? H5F_ACC_RDWR : H5F_ACC_RDONLY, access);
-  if (file < 0)
-    H5Eset_auto2(H5E_DEFAULT, messages, messages_data);
   check(file, "open");
 }
 
@@ -60,7 +73,6 @@ Hdf5File::~Hdf5File()
 {
   if (file >= 0)
     H5Fclose(file);
-  H5Eset_auto2(H5E_DEFAULT, messages, messages_data);
 }
 
 void Hdf5File::close()

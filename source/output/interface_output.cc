@@ -1,3 +1,4 @@
+#include <gemmule/output/disk.h>
 #include <gemmule/output/hdf5_file.h>
 #include <gemmule/output/interface_output.h>
 #include <gemmule/output/rank_zero.h>
@@ -138,7 +139,10 @@ void InterfaceWriter<dim>::append(const InterfaceSamples<dim> &samples)
 {
   const std::size_t n_points = samples.points.size();
   const std::string group = group_name(entries.size());
-  Hdf5File file(directory + "/" + file_name, Hdf5File::Mode::modify);
+  const std::size_t numbers_per_point = scalars<dim>().size() + (1 + vectors<dim>().size()) * dim;
+  const std::size_t n_bytes =
+      n_points * numbers_per_point * sizeof(double) + samples.connectivity.size() * 2 * sizeof(unsigned int);
+  Hdf5File file(directory + "/" + file_name, Hdf5File::Mode::modify, n_bytes);
   file.create_group(group);
   file.write(group + "/points", flatten(samples.points), dim);
   for (const auto &[name, member] : scalars<dim>())

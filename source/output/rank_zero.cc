@@ -1,9 +1,7 @@
 #include <gemmule/output/rank_zero.h>
 #include <gemmule/parameters/errors.h>
 
-#include <cstdio>
-#include <fstream>
-#include <vector>
+#include <string>
 
 namespace Gemmule
 {
@@ -51,24 +49,5 @@ void on_rank_zero(const MPI_Comm &communicator, const std::function<void()> &act
   if (report[0] == user_error)
     throw UserError(message);
   throw SimulationError(message);
-}
-
-void replace_file(const std::string &path, const std::string &content)
-{
-  const std::string unfinished = path + ".part";
-  {
-    std::ofstream file(unfinished, std::ios::binary);
-    file << content;
-    file.close();
-    if (!file)
-    {
-      std::remove(unfinished.c_str());
-      throw SimulationError("Cannot write " + path +
-                            ": is the disk full, or the directory write-protected? Make room and go on with "
-                            "--resume.");
-    }
-  }
-  if (std::rename(unfinished.c_str(), path.c_str()) != 0)
-    throw SimulationError("Cannot replace " + path + ": check that the directory and the file are writable.");
 }
 } // namespace Gemmule

@@ -1,3 +1,4 @@
+#include <gemmule/output/disk.h>
 #include <gemmule/output/rank_zero.h>
 #include <gemmule/output/statistics.h>
 #include <gemmule/parameters/errors.h>

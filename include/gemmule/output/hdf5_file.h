@@ -7,10 +7,24 @@
 
 namespace Gemmule
 {
+/** While it lives, HDF5 prints no messages of its own: what fails is reported by an exception. */
+class Hdf5Silence
+{
+public:
+  Hdf5Silence();
+  ~Hdf5Silence();
+  Hdf5Silence(const Hdf5Silence &) = delete;
+  Hdf5Silence &operator=(const Hdf5Silence &) = delete;
+
+private:
+  H5E_auto2_t messages = nullptr; ///< how HDF5 reported errors before
+  void *messages_data = nullptr;
+};
+
 /**
  * An HDF5 file that one rank reads or extends, with the few operations that the output needs. Locks that a
- * reader (a notebook, ParaView) holds do not stop it. HDF5 prints no messages of its own meanwhile; what
- * fails throws SimulationError with the path and what to do.
+ * reader (a notebook, ParaView) holds do not stop it. What fails throws SimulationError with the path and
+ * what to do.
  *
  * Objects are named by their path in the file, such as "step_00000/points".
  */
@@ -24,7 +38,11 @@ public:
     read
   };
 
-  Hdf5File(const std::string &path, Mode mode);
+  /**
+   * @param growth number of bytes that will be added, without HDF5's own bookkeeping
+   * @throws SimulationError when the file cannot be opened, or the disk has no room for @p growth
+   */
+  Hdf5File(const std::string &path, Mode mode, std::size_t growth = 0);
   ~Hdf5File();
   Hdf5File(const Hdf5File &) = delete;
   Hdf5File &operator=(const Hdf5File &) = delete;
@@ -63,10 +81,9 @@ private:
                      hid_t type);
   void write_attribute(const std::string &owner, const std::string &name, hid_t type, const void *value);
 
+  const Hdf5Silence silence;
   const std::string path;
   const bool for_reading;
   hid_t file = H5I_INVALID_HID;
-  H5E_auto2_t messages = nullptr; ///< how HDF5 reported errors before
-  void *messages_data = nullptr;
 };
 } // namespace Gemmule

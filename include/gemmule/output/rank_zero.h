@@ -2,7 +2,6 @@
 
 #include <functional>
 #include <mpi.h>
-#include <string>
 
 namespace Gemmule
 {
@@ -12,12 +11,4 @@ namespace Gemmule
  * full disk would stop rank 0 and leave the others waiting for ever. Collective.
  */
 void on_rank_zero(const MPI_Comm &communicator, const std::function<void()> &action);
-
-/**
- * Replace the file @p path by @p content as one step, so that a reader or a kill never finds half of it:
- * written to a neighbouring file that is then renamed.
- *
- * @throws SimulationError with the path and the remedy when the disk does not take it
- */
-void replace_file(const std::string &path, const std::string &content);
 } // namespace Gemmule
