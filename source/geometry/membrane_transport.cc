@@ -43,6 +43,8 @@ std::vector<TransportedFields<dim>> transport_fields(const MembraneMotion<dim> &
       t.displacement[i] = trajectory.displacement;
       t.previous_velocity[i] = old_membrane.value(trajectory.foot, &Fields::velocity);
       t.concentration[i] = old_membrane.value(trajectory.foot, &Fields::concentration);
+      t.previous_concentration[i] = old_membrane.value(trajectory.foot, &Fields::previous_concentration);
+      t.preceding_concentration[i] = old_membrane.value(trajectory.foot, &Fields::preceding_concentration);
       t.total_concentration[i] = old_membrane.value(trajectory.foot, &Fields::total_concentration);
     }
   return transported;
