@@ -59,7 +59,8 @@ def conservation(axis, table):
     lower, upper = axis.get_ylim()
     axis.set_ylim(0.5 * floor, max(upper, 1e-12))
     axis.set_ylabel("relative error")
-    axis.legend(ncols=3, loc="upper left")
+    if axis.get_lines():
+        axis.legend(ncols=3, loc="upper left")
 
 
 def phase_boundaries(axis, table):

@@ -1,3 +1,4 @@
+# shellcheck shell=bash
 # Shared by run.sh and test.sh, which source it: install what is missing, build, find a Python.
 
 packages=(cmake ninja-build g++ git ccache libdeal.ii-dev libmumps-dev libcli11-dev libgtest-dev
