@@ -1,0 +1,13 @@
+#pragma once
+
+#include <gemmule/model/energy_density.h>
+
+namespace Gemmule
+{
+/** g = c^2 (1 - c)^2 / 4, c = f / fbar (design section 1). */
+class QuarticDoubleWell : public DoubleWell
+{
+public:
+  EnergyDerivatives evaluate(double f, double fbar) const override;
+};
+} // namespace Gemmule

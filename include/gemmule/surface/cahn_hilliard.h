@@ -1,0 +1,79 @@
+#pragma once
+
+#include <gemmule/algebra/element_system.h>
+#include <gemmule/surface/surface_step.h>
+
+namespace Gemmule
+{
+class MembraneModel;
+template <int dim>
+struct BandCell;
+template <int dim>
+class TraceSpace;
+namespace Parameters
+{
+  struct Surface;
+}
+
+/**
+ * Phase separation on the moving membrane: concentration f and chemical potential mu by trace finite
+ * elements, the conservative BDF and Newton's method (design section 2, "Surface fields"):
+ *
+ *   (1/dt)(a0 int_n f v + a1 int_{n-1} f v + a2 int_{n-2} f v) - int_n f u.grad v
+ *     + (1/Pe) int_n grad_s mu.grad_s v + (rho/h) [s(f, v) + (1/Pe) s(mu, v)] = 0
+ *   int_n mu w - int_n (g_f + M gamma_f) w - C^2 int_n grad_s f.grad_s w - C^2 (rho/h) s(f, w) = 0
+ *
+ * with s(a, b) = int_band (n.grad a)(n.grad b). Fully implicit, hence E non-increasing for time steps that
+ * resolve the instability of the mixed state. Everything but g_f + M gamma_f is linear, so that its
+ * linearisation error, known at each quadrature point, is the residual of the whole system, and the mass is
+ * exact after every iteration.
+ */
+template <int dim>
+class CahnHilliard
+{
+public:
+  /** @p model and @p parameters are kept by reference. */
+  CahnHilliard(const MembraneModel &model, const Parameters::Surface &parameters, MPI_Comm communicator);
+
+  /**
+   * f and mu at the end of @p step, for which @p space has been prepared.
+   *
+   * @param total_concentration fbar at the end of the step
+   * Throws SimulationError if Newton's method does not converge. Collective.
+   */
+  void advance(const TraceSpace<dim> &space, const SurfaceStep<dim> &step,
+               const TraceField<dim> &total_concentration);
+
+  /** Sets f by L2-projection of @p concentration and mu from its definition. Collective. */
+  void initialise(const TraceSpace<dim> &space, const TraceField<dim> &concentration,
+                  const TraceField<dim> &total_concentration);
+
+  const TraceField<dim> &concentration() const { return f; }
+  const TraceField<dim> &chemical_potential() const { return mu; }
+
+  /** Newton iterations (solves) of the last step. */
+  unsigned int last_iterations() const { return n_iterations; }
+
+private:
+  using PointValues = std::vector<std::vector<double>>; ///< by cut cell and quadrature point
+
+  void assemble_matrix(const TraceSpace<dim> &space, const SurfaceStep<dim> &step);
+  std::vector<double> assemble_rhs(const TraceSpace<dim> &space, const SurfaceStep<dim> &step) const;
+  /** Linearises the local chemical potential about the present f at the points. */
+  void linearise();
+  /** Takes f at the points from @p field, and returns the linearisation error and the magnitude it compares
+   * with. */
+  std::pair<double, double> update_points(const TraceSpace<dim> &space, const TraceField<dim> &field);
+
+  const MembraneModel &model;
+  const Parameters::Surface &parameters;
+  MPI_Comm communicator;
+  ElementSystem system;
+  TraceField<dim> f, mu;
+  unsigned int n_iterations = 0;
+
+  PointValues total_at_points, f_at_points;
+  PointValues slope;     ///< d(g_f + M gamma_f)/df where it was linearised
+  PointValues intercept; ///< g_f + M gamma_f - slope f at the present f
+};
+} // namespace Gemmule

@@ -1,0 +1,86 @@
+#pragma once
+
+#include <gemmule/surface/cahn_hilliard.h>
+#include <gemmule/surface/surface_diagnostics.h>
+#include <gemmule/surface/total_concentration.h>
+#include <gemmule/surface/trace_space.h>
+
+#include <deal.II/base/function.h>
+
+#include <memory>
+#include <vector>
+
+namespace Gemmule
+{
+class MembraneModel;
+namespace Parameters
+{
+  struct Surface;
+}
+
+/**
+ * The surface equations of one time step: total concentration, then concentration and chemical potential
+ * (design section 2, "Surface fields"), and what follows from them: tension, energies, masses and the cloud
+ * that later steps need. Nothing is carried from step to step in here: all memory is in the clouds and fields
+ * that SurfaceStep hands over, so that a step can be repeated, or continued on another mesh.
+ */
+template <int dim>
+class SurfaceSolver
+{
+public:
+  using Vector = dealii::LinearAlgebra::distributed::Vector<double>;
+
+  /** @p model and @p parameters are kept by reference. */
+  SurfaceSolver(const dealii::Triangulation<dim> &triangulation, const MembraneModel &model,
+                const Parameters::Surface &parameters);
+
+  /** Call after every change of the mesh. Collective. */
+  void reinit_mesh();
+
+  /** Projects the initial concentrations, and computes mu from its definition. Collective. */
+  void initialise(const CutGeometry<dim> &geometry, const dealii::DoFHandler<dim> &level_set_dofs,
+                  const Vector &level_set, const dealii::Function<dim> &concentration,
+                  const dealii::Function<dim> &total_concentration);
+
+  /**
+   * Takes the fields to the membrane of @p geometry, that of the end of @p step.
+   *
+   * The geometry must live until the next call. Throws SimulationError if Newton's method does not converge,
+   * a concentration cannot be continued, or the membrane left the box. Collective.
+   */
+  void advance(const CutGeometry<dim> &geometry, const dealii::DoFHandler<dim> &level_set_dofs,
+               const Vector &level_set, const SurfaceStep<dim> &step);
+
+  const TraceField<dim> &concentration() const { return phases.concentration(); }
+  const TraceField<dim> &total_concentration() const { return total; }
+  const TraceField<dim> &chemical_potential() const { return phases.chemical_potential(); }
+
+  /** Tension without arclength constraint, for each locally owned cut cell at its quadrature points. */
+  std::vector<std::vector<double>> tension() const;
+
+  const SurfaceDiagnostics &diagnostics() const { return figures; }
+
+  /** The locally owned part of the membrane; complete it over the ranks before it is used in a SurfaceStep.
+   */
+  MembraneCloud<dim> cloud() const;
+
+  /** Must SurfaceStep have the predicted and the extended total concentrations? */
+  bool needs_extended_fields() const { return transport->needs_extended_fields(); }
+
+  /** Unknowns of f, fbar and mu together, on all ranks. */
+  unsigned int n_unknowns() const { return 3 * space.n_unknowns(); }
+  unsigned int last_newton_iterations() const { return phases.last_iterations(); }
+  /** Constant added to fbar in the last step to keep its mass (update smoothing; otherwise 0). */
+  double last_mass_shift() const { return transport->last_shift(); }
+
+private:
+  void compute_diagnostics();
+
+  const MembraneModel &model;
+  TraceSpace<dim> space;
+  std::unique_ptr<TotalConcentration<dim>> transport;
+  CahnHilliard<dim> phases;
+  TraceField<dim> total;
+  SurfaceDiagnostics figures;
+};
+} // namespace Gemmule

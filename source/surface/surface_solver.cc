@@ -1,0 +1,105 @@
+#include <gemmule/geometry/membrane_snapshot.h>
+#include <gemmule/model/membrane_model.h>
+#include <gemmule/parameters/discretisation.h>
+#include <gemmule/surface/surface_solver.h>
+#include <gemmule/surface/trace_forms.h>
+
+namespace Gemmule
+{
+using namespace dealii;
+
+template <int dim>
+SurfaceSolver<dim>::SurfaceSolver(const Triangulation<dim> &triangulation, const MembraneModel &model,
+                                  const Parameters::Surface &parameters)
+    : model(model), space(triangulation),
+      transport(TotalConcentration<dim>::create(model, parameters, triangulation.get_communicator())),
+      phases(model, parameters, triangulation.get_communicator())
+{
+}
+
+template <int dim>
+void SurfaceSolver<dim>::reinit_mesh()
+{
+  space.reinit_mesh();
+}
+
+template <int dim>
+void SurfaceSolver<dim>::initialise(const CutGeometry<dim> &geometry, const DoFHandler<dim> &level_set_dofs,
+                                    const Vector &level_set, const Function<dim> &concentration,
+                                    const Function<dim> &total_concentration)
+{
+  space.prepare(geometry, level_set_dofs, level_set, {{nullptr, nullptr}});
+  const auto projection = [&](const Function<dim> &function)
+  {
+    return project<dim>(space,
+                        [&](unsigned int, unsigned int, const Point<dim> &x) { return function.value(x); });
+  };
+  total = projection(total_concentration);
+  phases.initialise(space, projection(concentration), total);
+  compute_diagnostics();
+}
+
+template <int dim>
+void SurfaceSolver<dim>::advance(const CutGeometry<dim> &geometry, const DoFHandler<dim> &level_set_dofs,
+                                 const Vector &level_set, const SurfaceStep<dim> &step)
+{
+  AssertThrow(step.clouds[0] && (step.bdf.order() == 1 || step.clouds[1]),
+              ExcMessage("A step needs as many earlier membranes as its order."));
+  AssertThrow(step.velocity && step.predicted_concentration &&
+                  step.velocity->size() == geometry.cut_cells().size() &&
+                  step.predicted_concentration->size() == geometry.cut_cells().size(),
+              ExcMessage("Velocity and predicted concentration must be given on every cut cell."));
+  space.prepare(geometry, level_set_dofs, level_set, step.clouds);
+  total = transport->advance(space, step);
+  phases.advance(space, step, total);
+  compute_diagnostics();
+}
+
+template <int dim>
+void SurfaceSolver<dim>::compute_diagnostics()
+{
+  figures = compute_surface_diagnostics(model, space.geometry(), phases.concentration(), total,
+                                        phases.chemical_potential(), space.communicator());
+}
+
+template <int dim>
+std::vector<std::vector<double>> SurfaceSolver<dim>::tension() const
+{
+  const auto &cells = space.geometry().cut_cells();
+  std::vector<std::vector<double>> sigma(cells.size());
+  SurfacePoint<dim> point;
+  for (unsigned int k = 0; k < cells.size(); ++k)
+    for (unsigned int q = 0; q < cells[k].surface_points.size(); ++q)
+    {
+      point.reinit(cells[k], q);
+      const auto &f = phases.concentration()[k];
+      sigma[k].push_back(model.tension(point.value(f), point.value(total[k]),
+                                       point.value(phases.chemical_potential()[k]),
+                                       point.surface_gradient(f).norm_square()));
+    }
+  return sigma;
+}
+
+template <int dim>
+MembraneCloud<dim> SurfaceSolver<dim>::cloud() const
+{
+  MembraneCloud<dim> cloud;
+  for (unsigned int k = 0; k < space.geometry().cut_cells().size(); ++k)
+  {
+    const auto &cell = space.geometry().cut_cells()[k];
+    for (unsigned int q = 0; q < cell.surface_points.size(); ++q)
+    {
+      const auto &p = cell.surface_points[q];
+      cloud.points.push_back(cell.physical(p));
+      cloud.normals.push_back(cell.normals[q]);
+      cloud.weights.push_back(cell.surface_weights[q]);
+      cloud.concentration.push_back(TensorLagrange<dim, 2>::value(phases.concentration()[k], p));
+      cloud.total_concentration.push_back(TensorLagrange<dim, 2>::value(total[k], p));
+    }
+  }
+  return cloud;
+}
+
+template class SurfaceSolver<2>;
+template class SurfaceSolver<3>;
+} // namespace Gemmule
