@@ -9,7 +9,10 @@ namespace Gemmule
 {
 namespace
 {
-  /** Closes a handle at the end of its scope. */
+  /** Bytes that HDF5 may add for itself in one session: headers of some twenty objects, the root's index. */
+constexpr std::size_t size_of_bookkeeping = 131072;
+
+/** Closes a handle at the end of its scope. */
   class Handle
   {
   public:
