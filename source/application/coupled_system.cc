@@ -174,7 +174,7 @@ void CoupledSystem<dim>::initialise()
   area_0 = geometry.enclosed_volume();
   arclength_0 = parameters.arclength.reference_arclength > 0. ? parameters.arclength.reference_arclength
                                                               : geometry.measure();
-  solve_flow(0., parameters.time_stepping.initial_step);
+  solve_flow(0., parameters.time_stepping.initial_step, nullptr);
 
   std::vector<TransportedFields<dim>> at_rest(geometry.cut_cells().size());
   for (unsigned int c = 0; c < at_rest.size(); ++c)
@@ -279,7 +279,7 @@ void CoupledSystem<dim>::cut_mesh(const bool keep_area)
 }
 
 template <int dim>
-void CoupledSystem<dim>::solve_flow(const double time, const double dt)
+void CoupledSystem<dim>::solve_flow(const double time, const double dt, const CutCellVector<dim> *old_velocity)
 {
   if (surface)
     total_tension = surface->tension();
@@ -296,9 +296,13 @@ void CoupledSystem<dim>::solve_flow(const double time, const double dt)
     }
   }
   boundary_velocity->set_time(time);
+  const MembraneScalar tension_of_membrane = total_tension;
+  const SemiImplicitTension<dim> semi_implicit{parameters.time_stepping.tension_implicitness * dt,
+                                               &tension_of_membrane, old_velocity};
   {
     TimerOutput::Scope scope(timer_output, "flow: assembly and factorisation");
-    flow.prepare(geometry, *boundary_velocity);
+    flow.prepare(geometry, *boundary_velocity,
+                 old_velocity != nullptr && semi_implicit.coefficient > 0. ? &semi_implicit : nullptr);
   }
   TimerOutput::Scope scope(timer_output, "flow: solution");
   if (parameters.arclength.model == Parameters::ArclengthModel::penalty)
@@ -420,7 +424,10 @@ typename CoupledSystem<dim>::StepErrors CoupledSystem<dim>::try_step(const doubl
     surface->advance(geometry, level_set.get_dof_handler(), level_set.values(), step);
   }
 
-  solve_flow(time, dt);
+  CutCellVector<dim> old_velocity(transported.size());
+  for (unsigned int c = 0; c < transported.size(); ++c)
+    old_velocity[c] = transported[c].previous_velocity;
+  solve_flow(time, dt, &old_velocity);
   last_computed_time = time;
   trial = take_snapshot(time, transported);
   return estimate_errors(dt, transported, predicted);

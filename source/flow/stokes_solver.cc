@@ -24,13 +24,19 @@ void StokesSolver<dim>::reinit_mesh()
 }
 
 template <int dim>
-void StokesSolver<dim>::prepare(const CutGeometry<dim> &new_geometry, const Function<dim> &boundary_velocity)
+void StokesSolver<dim>::prepare(const CutGeometry<dim> &new_geometry, const Function<dim> &boundary_velocity,
+                                const SemiImplicitTension<dim> *new_semi_implicit)
 {
   geometry = &new_geometry;
+  semi_implicit = new_semi_implicit;
   space.reinit(*geometry, boundary_velocity);
   assembler.assemble(*geometry, system);
-  system.factorise();
   force.reinit(*geometry);
+  rhs = assembler.boundary_rhs();
+  if (semi_implicit != nullptr)
+    semi_implicit->add_matrix(*geometry, force, capillary_number, assembler.fluids(),
+                              assembler.cut_cell_elements(), system, rhs);
+  system.factorise();
 }
 
 template <int dim>
@@ -43,8 +49,10 @@ void StokesSolver<dim>::solve(const MembraneScalar &tension, const ArclengthPena
   const auto &elements = assembler.cut_cell_elements();
   const bool constrained = penalty != nullptr && penalty->stiffness > 0.;
 
-  std::vector<std::vector<double>> solutions{assembler.boundary_rhs()};
+  std::vector<std::vector<double>> solutions{rhs};
   force.add_rhs(&tension, 0., capillary_number, fluids, elements, system, solutions[0]);
+  if (semi_implicit != nullptr)
+    semi_implicit->add_rhs(*geometry, force, capillary_number, fluids, elements, system, solutions[0]);
   std::vector<double> unit_force;
   if (constrained)
   {

@@ -87,7 +87,8 @@ private:
   void cut_mesh(bool keep_area);
   void check_wall() const;
   bool membrane_touches_wall() const;
-  void solve_flow(double time, double dt);
+  /** @param old_velocity of the same material points one step ago; nullptr at the start */
+  void solve_flow(double time, double dt, const CutCellVector<dim> *old_velocity);
   MembraneSnapshot<dim> take_snapshot(double time, const std::vector<TransportedFields<dim>> &transported) const;
   StepErrors estimate_errors(double dt, const std::vector<TransportedFields<dim>> &transported,
                              const CutCellScalar<dim> &predicted_concentration) const;

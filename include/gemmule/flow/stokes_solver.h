@@ -1,6 +1,7 @@
 #pragma once
 
 #include <gemmule/flow/membrane_force.h>
+#include <gemmule/flow/semi_implicit_tension.h>
 #include <gemmule/flow/stokes_assembler.h>
 #include <gemmule/flow/stokes_solution.h>
 #include <gemmule/flow/unfitted_stokes_space.h>
@@ -40,10 +41,13 @@ public:
   /**
    * Assembles and factorises. @p geometry must stay unchanged as long as solve() and the results are used.
    * @param boundary_velocity u_infinity, dim components, its time set by the caller
+   * @param semi_implicit damping of the fast shape modes, nullptr for none; what it points to must stay as long as
+   * solve() is used
    * Throws SimulationError (membrane at the boundary, factorisation) and UserError (u_infinity with
    * net flux).
    */
-  void prepare(const CutGeometry<dim> &geometry, const dealii::Function<dim> &boundary_velocity);
+  void prepare(const CutGeometry<dim> &geometry, const dealii::Function<dim> &boundary_velocity,
+               const SemiImplicitTension<dim> *semi_implicit = nullptr);
 
   /**
    * @param tension sigma at the quadrature points of the membrane, without the penalty
@@ -85,7 +89,9 @@ private:
   MembraneForce<dim> force;
   StokesSolution<dim> bulk;
   const CutGeometry<dim> *geometry = nullptr;
+  const SemiImplicitTension<dim> *semi_implicit = nullptr;
 
+  std::vector<double> rhs; ///< what does not depend on the tension
   std::vector<MembraneVelocity<dim>> velocity;
   double rate = 0.;
   double penalty_tension = 0.;
