@@ -297,8 +297,14 @@ void CoupledSystem<dim>::solve_flow(const double time, const double dt, const Cu
   }
   boundary_velocity->set_time(time);
   const MembraneScalar tension_of_membrane = total_tension;
+  MembraneScalar dilatational_modulus(surface ? total_tension.size() : 0);
+  for (unsigned int c = 0; c < dilatational_modulus.size(); ++c)
+    for (const auto &q : geometry.cut_cells()[c].surface_points)
+      dilatational_modulus[c].push_back(
+        model.dilatational_modulus(TensorLagrange<dim, 2>::value(surface->total_concentration()[c], q)));
   const SemiImplicitTension<dim> semi_implicit{parameters.time_stepping.tension_implicitness * dt,
-                                               &tension_of_membrane, old_velocity};
+                                               &tension_of_membrane, surface ? &dilatational_modulus : nullptr,
+                                               old_velocity};
   {
     TimerOutput::Scope scope(timer_output, "flow: assembly and factorisation");
     flow.prepare(geometry, *boundary_velocity,

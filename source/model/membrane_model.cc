@@ -46,6 +46,11 @@ double MembraneModel::tension(const double f, const double fbar, const double ch
   return sigma;
 }
 
+double MembraneModel::dilatational_modulus(const double fbar) const
+{
+  return is_compressible() ? choice.compressibility_modulus * fbar * fbar : 0.;
+}
+
 double MembraneModel::surface_energy_density(const double f, const double fbar) const
 {
   double energy = surface_energy->evaluate(f, fbar).value;

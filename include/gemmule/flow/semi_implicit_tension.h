@@ -7,11 +7,12 @@ namespace Gemmule
 /**
  * Damps the fast shape modes of the explicit coupling of membrane and flow: adds
  *
- *   (S dt / Ca) int_Gamma max(sigma, 0) P grad(<u> - u_old) n . P grad <v> n,   P = I - n n^T,
+ *   (S dt / Ca) int_Gamma max(sigma, 0) P grad(w) n . P grad <v> n + E div_s w div_s <v>,
+ *   w = <u> - u_old,  P = I - n n^T,
  *
- * to the flow problem, S dt times the linearised stiffness of the tension against normal displacements. u_old is
- * the velocity of the same material points one step ago, so that the term is O(dt^2) and the scheme stays second
- * order. In the linear model (decay rate lambda, BDF2 with extrapolated velocity) the coupling is stable for dt lambda <
+ * to the flow problem: S dt times the linearised stiffness of the tension against normal displacements and of the
+ * membrane against dilatation. u_old is the velocity of the same material points one step ago, so that the term is
+ * O(dt^2) and the scheme stays second order. In the linear model (decay rate lambda, BDF2 with extrapolated velocity) the coupling is stable for dt lambda <
  * 4/3 with S = 0, < 6.7 with S = 0.3 and for every step with S >= 0.4 (doc/method.md).
  */
 template <int dim>
@@ -21,6 +22,7 @@ struct SemiImplicitTension
 
   double coefficient = 0.;                                  ///< S dt
   const MembraneScalar *tension = nullptr;                  ///< sigma
+  const MembraneScalar *dilatational_modulus = nullptr;     ///< E = -d sigma / d log(length); nullptr: 0
   const std::vector<NodalVelocity> *old_velocity = nullptr; ///< u_old on the cut cells, Q3
 
   /** Adds the matrices of the cut cells to the system, and what they do to boundary values to @p rhs. */
