@@ -38,10 +38,10 @@ void Mesh::add_parameters(dealii::ParameterHandler &prm)
       "Remeshing interval", remeshing_interval,
       "Largest number of time steps from one remeshing to the next. The mesh is also adapted whenever the "
       "membrane has used up its layers.",
-      Range::between(1, 1e9));
+      Range::at_least(1));
   section.add("Largest number of cells", largest_number_of_cells,
               "The simulation stops with a message if the mesh would have more cells than this.",
-              Range::between(1, 4e9));
+              Range::at_least(1));
 }
 
 void Mesh::check() const

@@ -10,58 +10,72 @@
 
 namespace Gemmule
 {
-  /**
-   * Fields on one cut cell as Q3 polynomials (nodal values in lexicographic order): what a membrane carries from one
-   * time level to the next. Off the membrane they are constant along normals up to the discretisation error.
-   */
-  template <int dim>
-  struct MembraneFields
-  {
-    static constexpr unsigned int n = TensorLagrange<dim, 3>::n;
-    using Scalar = std::array<double, n>;
-    using Vector = std::array<dealii::Tensor<1, dim>, n>;
+/**
+ * Fields on one cut cell as Q3 polynomials (nodal values in lexicographic order): what a membrane carries
+ * from one time level to the next. Off the membrane they are constant along normals up to the discretisation
+ * error.
+ */
+template <int dim>
+struct MembraneFields
+{
+  static constexpr unsigned int n = TensorLagrange<dim, 3>::n;
+  using Scalar = std::array<double, n>;
+  using Vector = std::array<dealii::Tensor<1, dim>, n>;
 
-    Vector velocity{};          ///< velocity <u> that moves the membrane
-    Vector displacement{};      ///< x - X, X the position of the same material point at the previous time level
-    Vector previous_velocity{}; ///< <u> of the previous time level at X
-    Scalar concentration{};       ///< f
-    Scalar total_concentration{}; ///< f-bar
-    Scalar chemical_potential{};  ///< mu
-  };
+  Vector velocity{};          ///< velocity <u> that moves the membrane
+  Vector displacement{};      ///< x - X, X the position of the same material point at the previous time level
+  Vector previous_velocity{}; ///< <u> of the previous time level at X
+  Scalar previous_concentration{};  ///< f of the previous time level at X
+  Scalar preceding_concentration{}; ///< f of the level before that, at the same material point
+  Scalar concentration{};     ///< f
+  Scalar total_concentration{}; ///< f-bar
+  Scalar chemical_potential{};  ///< mu
+};
 
-  /** One cut cell of the membrane: geometry and fields. */
-  template <int dim>
-  struct MembranePatch
-  {
-    dealii::Point<dim> corner; ///< lower corner of the cell
-    double size;               ///< edge length h
-    std::array<double, TensorLagrange<dim, 3>::n> level_set;
-    MembraneFields<dim> fields;
-  };
+/** One cut cell of the membrane: geometry and fields. */
+template <int dim>
+struct MembranePatch
+{
+  dealii::Point<dim> corner; ///< lower corner of the cell
+  double size;               ///< edge length h
+  std::array<double, TensorLagrange<dim, 3>::n> level_set;
+  MembraneFields<dim> fields;
+};
 
-  /**
-   * Quadrature points of the membrane at one time level with the densities there: integrals over an earlier membrane
-   * are sums over its cloud, exact on any later mesh (design section 2, conservative BDF2).
-   */
-  template <int dim>
-  struct MembraneCloud
-  {
-    std::vector<dealii::Point<dim>> points;
-    std::vector<dealii::Tensor<1, dim>> normals;
-    std::vector<double> weights; ///< lengths (areas in 3D)
-    std::vector<double> concentration;
-    std::vector<double> total_concentration;
-  };
+/** The level set on one cell. */
+template <int dim>
+struct LevelSetCell
+{
+  dealii::Point<dim> corner;
+  double size;
+  std::array<double, TensorLagrange<dim, 3>::n> level_set;
+};
 
-  /**
-   * The membrane at one time level, independent of the mesh and complete on every rank: it survives remeshing and
-   * repartitioning without any transfer error, and is all that a restart needs (doc/method.md).
-   */
-  template <int dim>
-  struct MembraneSnapshot
-  {
-    double time = 0.;
-    std::vector<MembranePatch<dim>> patches;
-    MembraneCloud<dim> cloud;
-  };
+/**
+ * Quadrature points of the membrane at one time level with the densities there: integrals over an earlier
+ * membrane are sums over its cloud, exact on any later mesh (design section 2, conservative BDF2).
+ */
+template <int dim>
+struct MembraneCloud
+{
+  std::vector<dealii::Point<dim>> points;
+  std::vector<dealii::Tensor<1, dim>> normals;
+  std::vector<double> weights; ///< lengths (areas in 3D)
+  std::vector<double> concentration;
+  std::vector<double> total_concentration;
+};
+
+/**
+ * The membrane at one time level, independent of the mesh and complete on every rank: it survives remeshing
+ * and repartitioning without any transfer error, and is all that a restart needs (doc/method.md).
+ */
+template <int dim>
+struct MembraneSnapshot
+{
+  double time = 0.;
+  dealii::Point<dim> origin;               ///< lower corner of the box: cells are at origin + integer * size
+  std::vector<MembranePatch<dim>> patches; ///< the cut cells
+  std::vector<LevelSetCell<dim>> band;     ///< the cells with an accurate level set
+  MembraneCloud<dim> cloud;
+};
 } // namespace Gemmule

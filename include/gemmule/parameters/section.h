@@ -24,6 +24,10 @@ struct Range
   static Range any() { return {}; }
   static Range positive() { return {0., std::numeric_limits<double>::infinity(), true}; }
   static Range non_negative() { return {0., std::numeric_limits<double>::infinity(), false}; }
+  static Range at_least(const double lower)
+  {
+    return {lower, std::numeric_limits<double>::infinity(), false};
+  }
   static Range between(const double lower, const double upper) { return {lower, upper, false}; }
 
   bool contains(double value) const;

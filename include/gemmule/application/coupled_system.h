@@ -1,0 +1,116 @@
+#pragma once
+
+#include <gemmule/flow/stokes_solver.h>
+#include <gemmule/geometry/cut_geometry.h>
+#include <gemmule/geometry/level_set.h>
+#include <gemmule/geometry/membrane_snapshot.h>
+#include <gemmule/geometry/membrane_transport.h>
+#include <gemmule/mesh/mesh_adaptation.h>
+#include <gemmule/model/membrane_model.h>
+#include <gemmule/parameters/all_parameters.h>
+#include <gemmule/surface/surface_solver.h>
+
+#include <deal.II/base/timer.h>
+#include <deal.II/distributed/tria.h>
+
+#include <memory>
+
+namespace Gemmule
+{
+/**
+ * Membrane, surface phases and flow on the adaptive mesh, and one time step of them (design section 2, "Coupling and
+ * time"): the membrane moves with the extrapolated velocity, then the concentrations follow on the new membrane, then
+ * tension and Stokes flow. The accepted states are snapshots that do not depend on the mesh; a step that is
+ * rejected leaves them untouched.
+ */
+template <int dim>
+class CoupledSystem
+{
+public:
+  using Triangulation = dealii::parallel::distributed::Triangulation<dim>;
+
+  CoupledSystem(const AllParameters &parameters, MPI_Comm communicator);
+
+  /**
+   * Mesh, membrane, phases and flow at t = 0.
+   * Throws UserError when there is no membrane in the box, or it touches the wall.
+   */
+  void initialise();
+
+  /** Estimated local errors of a step. */
+  struct StepErrors
+  {
+    double shape = 0.;       ///< of the membrane's position (length)
+    double composition = 0.; ///< of f (dimensionless)
+  };
+
+  /**
+   * Computes the state at time() + dt. Throws SimulationError when that is impossible; accept() or another try follows.
+   */
+  StepErrors try_step(double dt);
+
+  /** Makes the state of the last try the current one. */
+  void accept();
+
+  double time() const { return current.time; }
+  double last_step() const { return dt_previous; }
+
+  /** Limit C h Ca / max|sigma| of the explicit coupling, per unit of C. */
+  double capillary_time_step() const;
+
+  // What the last state that was computed is like, for output.
+  const AllParameters &get_parameters() const { return parameters; }
+  const Triangulation &mesh() const { return triangulation; }
+  const LevelSet<dim> &get_level_set() const { return level_set; }
+  const CutGeometry<dim> &get_geometry() const { return geometry; }
+  /** nullptr with a prescribed tension. */
+  const SurfaceSolver<dim> *get_surface() const { return surface.get(); }
+  const StokesSolver<dim> &get_flow() const { return flow; }
+  const MembraneModel &get_model() const { return model; }
+  /** sigma with the arclength constraint's part, per owned cut cell and quadrature point. */
+  const MembraneScalar &tension() const { return total_tension; }
+  double reference_arclength() const { return arclength_0; }
+  double area_correction() const { return last_area_correction; }
+  unsigned int lowered_levels() const { return adaptation.lowered_levels(); }
+  dealii::TimerOutput &timer() { return timer_output; }
+
+private:
+  void make_initial_mesh();
+  void reinit_mesh();
+  /** Samples of the current membrane, at its predicted position if there is a motion. */
+  std::vector<MembraneSample<dim>> samples(const MembraneProjection<dim> &membrane,
+                                           const MembraneMotion<dim> *motion) const;
+  void adapt_mesh(const MembraneProjection<dim> &membrane, const MembraneMotion<dim> *motion);
+  void cut_mesh(bool keep_area);
+  void check_wall() const;
+  bool membrane_touches_wall() const;
+  void solve_flow(double time, double dt);
+  MembraneSnapshot<dim> take_snapshot(double time, const std::vector<TransportedFields<dim>> &transported) const;
+  StepErrors estimate_errors(double dt, const std::vector<TransportedFields<dim>> &transported,
+                             const CutCellScalar<dim> &predicted_concentration) const;
+
+  const AllParameters parameters;
+  const MPI_Comm communicator;
+  Triangulation triangulation;
+  const dealii::Point<dim> origin;
+  dealii::TimerOutput timer_output;
+
+  std::unique_ptr<dealii::Function<dim>> boundary_velocity, prescribed_tension;
+  MembraneModel model;
+  LevelSet<dim> level_set;
+  CutGeometry<dim> geometry;
+  std::unique_ptr<SurfaceSolver<dim>> surface;
+  StokesSolver<dim> flow;
+  MeshAdaptation<dim> adaptation;
+
+  MembraneScalar total_tension;
+  double area_0 = 0., arclength_0 = 0.;
+  double last_area_correction = 0.;
+  unsigned int steps_since_remeshing = 0;
+
+  MembraneSnapshot<dim> current, previous, trial;
+  double dt_previous = 0.;  ///< between previous and current
+  double dt_preceding = 0.; ///< the one before
+  double dt_trial = 0.;
+};
+} // namespace Gemmule

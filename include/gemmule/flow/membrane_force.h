@@ -1,0 +1,56 @@
+#pragma once
+
+#include <gemmule/flow/membrane_velocity.h>
+#include <gemmule/flow/stokes_assembler.h>
+#include <gemmule/geometry/cut_geometry.h>
+
+#include <vector>
+
+namespace Gemmule
+{
+/** One number per quadrature point of the membrane: [locally owned cut cell][point], as in CutGeometry. */
+using MembraneScalar = std::vector<std::vector<double>>;
+
+/**
+ * The surface divergence of <v> on the membrane and the functionals made of it: the force of the tension
+ * -(1/Ca) int sigma div_s <v>, which needs neither curvature nor derivatives of the tension, the rate of
+ * change of the arclength int div_s <u>, and the work of the tension (design section 1).
+ */
+template <int dim>
+class MembraneForce
+{
+public:
+  using Layout = StokesLayout<dim>;
+  using Velocity = std::vector<MembraneVelocity<dim>>;
+
+  /** Tabulates (I - n n^T) grad phi at the quadrature points. @p geometry must stay as long as this is used.
+   */
+  void reinit(const CutGeometry<dim> &geometry);
+
+  /**
+   * Adds this rank's part of -(1/Ca) int (sigma + offset) div_s <v>.
+   * @param tension sigma; nullptr for zero
+   */
+  void add_rhs(const MembraneScalar *tension, double offset, double capillary_number, const FluidPair &fluids,
+               const std::vector<StokesCellElement> &cut_cell_elements, const ElementSystem &system,
+               std::vector<double> &rhs) const;
+
+  /** <u> = w2 u1 + w1 u2 on the locally owned cut cells from the unknowns of the system. */
+  Velocity average(const FluidPair &fluids, const std::vector<StokesCellElement> &cut_cell_elements,
+                   const ElementSystem &system, const std::vector<double> &unknowns) const;
+
+  /** int (sigma + offset) div_s <u>: this rank's part. With sigma = 0, offset = 1 the rate of change of
+   * arclength. */
+  double integrate_divergence(const MembraneScalar *tension, double offset, const Velocity &velocity) const;
+
+  /** int <u>.n: this rank's part. */
+  double integrate_flux(const Velocity &velocity) const;
+
+private:
+  static constexpr unsigned int nv = Layout::n_velocity_nodes;
+
+  const CutGeometry<dim> *geometry = nullptr;
+  std::vector<std::size_t> first_point; ///< of each cut cell
+  std::vector<std::array<dealii::Tensor<1, dim>, nv>> tangential_gradients;
+};
+} // namespace Gemmule

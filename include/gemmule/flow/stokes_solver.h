@@ -1,0 +1,95 @@
+#pragma once
+
+#include <gemmule/flow/membrane_force.h>
+#include <gemmule/flow/stokes_assembler.h>
+#include <gemmule/flow/stokes_solution.h>
+#include <gemmule/flow/unfitted_stokes_space.h>
+
+namespace Gemmule
+{
+/**
+ * Penalty Lambda (L - L0) on the arclength L, taken implicitly: the tension of the end of a time step of size
+ * dt is Lambda (L - L0 + dt dL/dt) with dL/dt = int div_s <u>.
+ */
+struct ArclengthPenalty
+{
+  double stiffness; ///< Lambda >= 0
+  double excess;    ///< L - L0 of the membrane for which the flow is solved
+  double time_step; ///< dt; 0 makes the penalty explicit
+};
+
+/**
+ * Stokes flow of the two fluids, driven by the tension of the membrane and the velocity on the boundary of
+ * the box (design sections 1 and 2).
+ *
+ * Use: reinit_mesh() after each change of the mesh; prepare() for each position of the membrane; then any
+ * number of times solve() and the results. All calls are collective.
+ */
+template <int dim>
+class StokesSolver
+{
+public:
+  using Vector = typename StokesSolution<dim>::Vector;
+
+  /** The triangulation must outlive this; its cells are cubes. */
+  StokesSolver(const dealii::parallel::distributed::Triangulation<dim> &triangulation,
+               const Parameters::Fluid &fluid, const Parameters::Flow &discretisation);
+
+  void reinit_mesh();
+
+  /**
+   * Assembles and factorises. @p geometry must stay unchanged as long as solve() and the results are used.
+   * @param boundary_velocity u_infinity, dim components, its time set by the caller
+   * Throws ExcMessage (membrane at the boundary, u_infinity with net flux) and SimulationError
+   * (factorisation).
+   */
+  void prepare(const CutGeometry<dim> &geometry, const dealii::Function<dim> &boundary_velocity);
+
+  /**
+   * @param tension sigma at the quadrature points of the membrane, without the penalty
+   * @param penalty adds its tension to sigma; nullptr for none
+   */
+  void solve(const MembraneScalar &tension, const ArclengthPenalty *penalty = nullptr);
+
+  /** <u> on the locally owned cut cells, in the order of CutGeometry::cut_cells(). */
+  const std::vector<MembraneVelocity<dim>> &membrane_velocity() const { return velocity; }
+
+  /** dL/dt = int div_s <u>. */
+  double arclength_rate() const { return rate; }
+  /** Lambda (L - L0 + dt dL/dt) of the last solve(), which the given tension does not contain. */
+  double constraint_tension() const { return penalty_tension; }
+  /** -int sigma_total div_s <u>: equals viscous_dissipation() up to discretisation if the boundary is at
+   * rest. */
+  double membrane_work() const { return work; }
+  /** int <u>.n: zero but for the error of the quadrature. */
+  double net_flux() const { return flux; }
+  /** (Ca/2) int eta |grad u + grad u^T|^2. */
+  double viscous_dissipation() const { return bulk.viscous_dissipation(capillary_number); }
+  /** Largest speed at the nodes, on the physical side of the membrane. */
+  double max_velocity() const { return bulk.max_velocity(); }
+  /** Number of unknowns of the linear system. */
+  unsigned int n_unknowns() const { return space.n_unknowns(); }
+  /** Net flux of the boundary data that was removed. */
+  double removed_boundary_flux() const { return space.removed_boundary_flux(); }
+
+  /** Velocity and pressure (zero mean) for output, see StokesSolution::interpolate(). */
+  void interpolate(Vector &values) const { bulk.interpolate(values); }
+  /** The Taylor-Hood space of interpolate(): dim velocity components, then the pressure. */
+  const dealii::DoFHandler<dim> &dof_handler() const { return space.dof_handler(); }
+
+private:
+  double capillary_number;
+  UnfittedStokesSpace<dim> space;
+  StokesAssembler<dim> assembler;
+  ElementSystem system;
+  MembraneForce<dim> force;
+  StokesSolution<dim> bulk;
+  const CutGeometry<dim> *geometry = nullptr;
+
+  std::vector<MembraneVelocity<dim>> velocity;
+  double rate = 0.;
+  double penalty_tension = 0.;
+  double work = 0.;
+  double flux = 0.;
+};
+} // namespace Gemmule

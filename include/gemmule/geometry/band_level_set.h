@@ -1,0 +1,48 @@
+#pragma once
+
+#include <gemmule/geometry/membrane_snapshot.h>
+
+#include <optional>
+#include <unordered_map>
+#include <vector>
+
+namespace Gemmule
+{
+/** Finds the cell of a collection of Cartesian cells (different sizes, no overlap) that holds a point. */
+template <int dim>
+class CartesianCellMap
+{
+public:
+  explicit CartesianCellMap(const dealii::Point<dim> &origin) : origin(origin) {}
+
+  void insert(const dealii::Point<dim> &corner, double size, unsigned int id);
+  /** @return the id, or -1. A point on a face belongs to the cell with the larger coordinates. */
+  int find(const dealii::Point<dim> &x) const;
+
+private:
+  using Key = std::array<int, dim>;
+  struct KeyHash
+  {
+    std::size_t operator()(const Key &key) const;
+  };
+  dealii::Point<dim> origin;
+  std::vector<double> sizes;
+  std::vector<std::unordered_map<Key, unsigned int, KeyHash>> cells; ///< for each size
+};
+
+/** The level set of an earlier time level in the band around its membrane, whatever the mesh is now. */
+template <int dim>
+class BandLevelSet
+{
+public:
+  /** The cells must outlive the object. */
+  BandLevelSet(const std::vector<LevelSetCell<dim>> &cells, const dealii::Point<dim> &origin);
+
+  /** phi(x), or nothing outside the band. */
+  std::optional<double> value(const dealii::Point<dim> &x) const;
+
+private:
+  const std::vector<LevelSetCell<dim>> &cells;
+  CartesianCellMap<dim> map;
+};
+} // namespace Gemmule

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <gemmule/geometry/band_level_set.h>
+#include <gemmule/geometry/cut_geometry.h>
+#include <gemmule/geometry/membrane_motion.h>
+
+#include <deal.II/base/function.h>
+#include <deal.II/distributed/tria.h>
+#include <deal.II/fe/fe_q.h>
+#include <deal.II/lac/affine_constraints.h>
+
+#include <functional>
+#include <vector>
+
+namespace Gemmule
+{
+/**
+ * The level set phi: continuous Q3, negative inside the vesicle, signed distance in a band around the
+ * membrane (elsewhere only its sign matters).
+ *
+ * Semi-Lagrangian: every step sets phi anew in the band, at each node to the old level set at the node's old
+ * position, with the displacement extended constantly along normals so that phi stays close to a distance.
+ * The old level set comes as the polynomials on the old cells, so that refinement, coarsening and
+ * repartitioning between two steps cost no transfer error. Where |grad phi| has drifted the step takes signed
+ * distances from the old membrane instead (doc/method.md).
+ */
+template <int dim>
+class LevelSet
+{
+public:
+  using Vector = dealii::LinearAlgebra::distributed::Vector<double>;
+
+  explicit LevelSet(const dealii::parallel::distributed::Triangulation<dim> &triangulation);
+
+  /** To be called after each change of the mesh. Collective. */
+  void reinit_mesh();
+
+  /** Nodal interpolation of a function that need not be a distance. */
+  void interpolate(const dealii::Function<dim> &function);
+
+  /** Signed distance from a membrane. */
+  void set_distance(const MembraneProjection<dim> &membrane);
+
+  /**
+   * Moves the membrane.
+   * @param old_level_set level set of the old time level
+   * @param redistance take signed distances from the old membrane instead of the old level set: O(h^4)
+   */
+  void advance(const MembraneMotion<dim> &motion, const BandLevelSet<dim> &old_level_set, bool redistance);
+
+  /** The cells with accurate values, complete on every rank: the next step's old level set. Collective. */
+  std::vector<LevelSetCell<dim>> gather_band() const;
+
+  /** phi += amount in the band: moves the membrane inwards by this length (area correction). */
+  void shift(double amount);
+
+  const dealii::DoFHandler<dim> &get_dof_handler() const { return dof_handler; }
+  /** Ghosted, satisfies the hanging-node constraints. */
+  const Vector &values() const { return phi; }
+
+private:
+  /** Sets the nodes within the band by @p accurate, the others (if never set on this mesh) by the nearest
+   * sample. */
+  void set_nodes(const MembraneProjection<dim> &membrane,
+                 const std::function<double(const dealii::Point<dim> &)> &accurate);
+  void finish();
+
+  const dealii::parallel::distributed::Triangulation<dim> &triangulation;
+  const dealii::FE_Q<dim> fe;
+  dealii::DoFHandler<dim> dof_handler;
+  dealii::AffineConstraints<double> constraints;
+  std::vector<unsigned int> node_to_dof; ///< lexicographic node -> cell dof
+  Vector phi;
+  bool far_nodes_are_set = false;
+  std::vector<bool> is_in_band; ///< by active_cell_index
+};
+} // namespace Gemmule

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <gemmule/geometry/membrane_projection.h>
+
+#include <vector>
+
+namespace Gemmule
+{
+/**
+ * Motion of the membrane over one time step along the trajectories of its points, BDF2 with extrapolated
+ * velocity and variable step (dimensionless time):
+ *
+ *   (a0 X^{n+1} + a1 X^n + a2 X^{n-1}) / dt = u* = (1 + r) <u>^n(X^n) - r <u>^{n-1}(X^{n-1}),  r = dt /
+ * dt_previous,
+ *
+ * explicit Euler in the first step. X^{n-1} and <u>^{n-1}(X^{n-1}) are fields of the membrane at level n,
+ * extended constantly along normals. Stable for decay rates up to 4 / (3 dt), where Adams-Bashforth 2 ends at
+ * 1 / dt.
+ */
+template <int dim>
+class MembraneMotion
+{
+public:
+  /** @param dt_previous zero for the first step. The projection must outlive the object. */
+  MembraneMotion(const MembraneProjection<dim> &projection, double dt, double dt_previous);
+
+  /** Where a point came from, and what moved it. */
+  struct Trajectory
+  {
+    ClosestPoint<dim> foot;              ///< closest point on the old membrane of the old position
+    dealii::Tensor<1, dim> displacement; ///< new minus old position
+    dealii::Tensor<1, dim> velocity;     ///< u*
+  };
+
+  /**
+   * Old position X with X + d(X) = x, d the displacement of the closest membrane point (fixed point; the
+   * contraction rate is dt |grad_s u|). The new level set at x is the signed distance of the old position,
+   * trajectory.foot.distance.
+   */
+  Trajectory trace_back(const dealii::Point<dim> &x) const;
+
+  /** Displacement of a point of the old membrane. */
+  dealii::Tensor<1, dim> displacement(const ClosestPoint<dim> &p) const;
+
+  const MembraneProjection<dim> &old_membrane() const { return projection; }
+
+private:
+  const MembraneProjection<dim> &projection;
+  double dt;
+  double velocity_weight, previous_velocity_weight, displacement_weight, inverse_a0;
+};
+} // namespace Gemmule

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <mpi.h>
+#include <string>
+
+namespace Gemmule
+{
+/**
+ * The directory of the results (design section 4). Construction creates it with its parents, checks that it
+ * can be written to and, unless the run is resumed, removes what an earlier run left under the program's own
+ * file names, so that nothing stale mixes with the new results. Other files stay.
+ */
+class OutputDirectory
+{
+public:
+  /**
+   * Collective.
+   *
+   * @param path relative to the working directory, or absolute
+   * @throws UserError, naming the path and the remedy, when the directory cannot be created or written to
+   */
+  OutputDirectory(const std::string &path, const MPI_Comm &communicator, bool resume = false);
+
+  const std::string &path() const { return directory; }
+
+  /** Path of the file @p name in the directory. */
+  std::string file(const std::string &name) const;
+
+  /**
+   * Write parameters.prm. Collective.
+   *
+   * @param parameters all values in use, as a parameter file
+   */
+  void write_parameters(const std::string &parameters) const;
+
+private:
+  const std::string directory;
+  const MPI_Comm communicator;
+};
+} // namespace Gemmule

@@ -1,0 +1,86 @@
+#pragma once
+
+#include <deque>
+#include <fstream>
+#include <functional>
+#include <iosfwd>
+#include <mpi.h>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+
+namespace Gemmule
+{
+/**
+ * Messages of a run, to log.txt and to the console, and a line that shows how far it is. Rank 0 writes;
+ * every rank may call; only construction is collective.
+ */
+class RunLog
+{
+public:
+  /** Where the console is and what it can do; replaced in tests. */
+  struct Console
+  {
+    /** Standard output. */
+    Console();
+
+    std::ostream &stream;
+    bool is_terminal;                     ///< a line can be rewritten in place
+    std::function<double()> wall_seconds; ///< a clock that never goes back
+
+    Console(std::ostream &stream, bool is_terminal, std::function<double()> wall_seconds);
+  };
+
+  /**
+   * @param directory existing directory of the results
+   * @param append keep what an earlier run wrote (for a run that is resumed)
+   *
+   * @throws UserError when log.txt cannot be opened
+   */
+  RunLog(const std::string &directory, const MPI_Comm &communicator, bool append = false,
+         const Console &console = Console());
+
+  /** Ends a progress line that is still open. */
+  ~RunLog();
+
+  RunLog(const RunLog &) = delete;
+  RunLog &operator=(const RunLog &) = delete;
+
+  void info(const std::string &text);
+
+  /** info() with the prefix "warning: ". */
+  void warn(const std::string &text);
+
+  /** warn(), but only the first time that @p key is given. */
+  void warn_once(const std::string &key, const std::string &text);
+
+  /**
+   * Show how far the run is and how long it will take: one line that is rewritten in place on a terminal,
+   * otherwise a line at most every 10 seconds. Not written to log.txt (statistics.csv has it all).
+   *
+   * @param step accepted steps so far
+   * @param time_step size of the last step
+   */
+  void progress(double time, double end_time, unsigned int step, double time_step);
+
+private:
+  void write_line(const std::string &line);
+  void end_progress_line();
+
+  const bool is_active;
+  Console console;
+  std::ofstream file;
+  std::set<std::string> warnings_given;
+  std::size_t open_line_length = 0;           ///< characters of the progress line that is on the terminal
+  std::deque<std::pair<double, double>> pace; ///< (wall clock, simulated time) of the last minute
+  std::optional<double> last_shown;           ///< wall clock of the last progress line
+};
+
+/** "42 s", "3 min 05 s", "2 h 07 min"; "?" when not finite. */
+std::string format_duration(double seconds);
+
+/** The line that RunLog::progress() shows; @p seconds_left may be infinite (not known yet). */
+std::string format_progress(double time, double end_time, unsigned int step, double time_step,
+                            double seconds_left);
+} // namespace Gemmule

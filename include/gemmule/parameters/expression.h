@@ -1,0 +1,38 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace dealii
+{
+template <int dim, typename Number>
+class Function;
+template <int dim, typename Number>
+class Point;
+} // namespace dealii
+
+namespace Gemmule
+{
+/**
+ * Turns the text of a parameter into a function of x, y(, z) and the time t; the constant pi is known. A
+ * vector-valued function has its components separated by ";". The syntax is that of dealii::FunctionParser
+ * (muParser); the time is that of Function::set_time().
+ *
+ * @param expression the text
+ * @param n_components number of components that it has to have
+ * @param where full name of the parameter, for messages, for example "Membrane/Level set"
+ * @throws ParameterError if the text cannot be parsed or has another number of components
+ */
+template <int dim>
+std::unique_ptr<dealii::Function<dim, double>>
+make_function(const std::string &expression, unsigned int n_components, const std::string &where);
+
+/**
+ * Evaluates all components of a function at the given points.
+ * @throws ParameterError naming @p where and the first point at which a value is not a finite number
+ */
+template <int dim>
+void check_finite(const dealii::Function<dim, double> &function,
+                  const std::vector<dealii::Point<dim, double>> &points, const std::string &where);
+} // namespace Gemmule

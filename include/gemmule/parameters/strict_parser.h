@@ -1,0 +1,58 @@
+#pragma once
+
+#include <gemmule/parameters/schema.h>
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace Gemmule::Parameters
+{
+/**
+ * Reads parameter files in deal.II's syntax (`subsection NAME ... end`, `set KEY = VALUE`, comments after #,
+ * a backslash at the end of a line continues it) into a ParameterHandler, and accepts nothing that is
+ * doubtful: unknown names, malformed lines, values that are not allowed and parameters given twice each lead
+ * to one message with file, line, section, reason and the nearest valid name.
+ */
+class StrictParser
+{
+public:
+  /** @param prm with all parameters declared; it has to live as long as the parser */
+  explicit StrictParser(dealii::ParameterHandler &prm);
+
+  /** @throws UserError */
+  void parse_file(const std::string &file);
+
+  /**
+   * Sets one parameter from "Section/Subsection/Key=value", as given on the command line. It replaces what
+   * the file says.
+   * @throws UserError
+   */
+  void parse_override(const std::string &assignment);
+
+  /** Where a parameter was set: "case.prm:12", "command line", or empty if it has its default. */
+  std::string place_of(const std::string &parameter) const;
+
+private:
+  struct OpenSection
+  {
+    std::string path;
+    std::string place;
+  };
+
+  void parse_line(const std::string &line, const std::string &place);
+  void enter(const std::string &name, const std::string &place);
+  void assign(const std::string &section, const std::string &key, const std::string &value,
+              const std::string &place, std::map<std::string, std::string> &already_set);
+  [[noreturn]] void unknown_key(const std::string &section, const std::string &key,
+                                const std::string &place) const;
+  [[noreturn]] void unknown_section(const std::string &section, const std::string &name,
+                                    const std::string &place) const;
+
+  dealii::ParameterHandler &prm;
+  const Schema schema;
+  std::vector<OpenSection> open_sections;
+  /** Full name of each parameter that was set, and where. */
+  std::map<std::string, std::string> set_in_file, set_on_command_line;
+};
+} // namespace Gemmule::Parameters

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <gemmule/parameters/time_stepping.h>
+
+#include <string>
+#include <vector>
+
+namespace Gemmule
+{
+/**
+ * Chooses the time steps: an elementary controller on the local error of a second-order scheme, limits, and the times
+ * that have to be hit exactly. Does no computation of its own, so that it can be tested without a simulation.
+ */
+class StepControl
+{
+public:
+  /**
+   * @param stops times to be hit exactly, of which the last is the end; unordered, more than once is fine
+   */
+  StepControl(const Parameters::TimeStepping &parameters, double start_time, std::vector<double> stops);
+
+  double time() const { return now; }
+  bool finished() const { return now >= stops.back(); }
+
+  /**
+   * Size of the next step: what the controller wants, at most @p stability_limit, cut so that it ends on the next stop
+   * (or spreads what is left over two steps, to avoid a tiny last one).
+   */
+  double propose(double stability_limit);
+
+  /**
+   * @param error estimated local error of the proposed step, in units of the tolerance
+   * @return whether the step is accepted; time() has then advanced. Otherwise propose() again.
+   * Throws SimulationError when a rejected step already had the smallest size.
+   */
+  bool judge(double error);
+
+  /**
+   * The proposed step could not be computed: the next proposal is half as long.
+   * @param reason goes into the message if that is below the smallest size (SimulationError)
+   */
+  void fail(const std::string &reason);
+
+private:
+  void shrink(double factor, const std::string &reason);
+
+  Parameters::TimeStepping parameters;
+  double now;
+  std::vector<double> stops;
+  double wanted;         ///< step that the controller would like
+  double proposed = 0.;  ///< step in work
+};
+} // namespace Gemmule

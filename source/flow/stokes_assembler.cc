@@ -1,0 +1,134 @@
+#include <gemmule/flow/stokes_assembler.h>
+#include <gemmule/parameters/discretisation.h>
+#include <gemmule/parameters/fluid.h>
+
+#include <cmath>
+
+namespace Gemmule
+{
+using namespace dealii;
+
+template <int dim>
+StokesAssembler<dim>::StokesAssembler(const UnfittedStokesSpace<dim> &space, const Parameters::Fluid &fluid,
+                                      const Parameters::Flow &discretisation)
+    : space(space), pair(fluid.viscosity_ratio), reference(discretisation),
+      cut_cell_matrix(pair, discretisation.nitsche_penalty)
+{
+}
+
+template <int dim>
+void StokesAssembler<dim>::assemble(const CutGeometry<dim> &geometry, ElementSystem &system)
+{
+  system.begin(space.n_unknowns());
+  add_cell_elements(geometry, system);
+  add_face_elements(geometry, system);
+  system.finish_elements();
+
+  rhs.assign(space.n_unknowns(), 0.);
+  system.zero_matrix();
+  add_cell_matrices(geometry, system);
+  add_face_matrices(system);
+}
+
+template <int dim>
+void StokesAssembler<dim>::add_cell_elements(const CutGeometry<dim> &geometry, ElementSystem &system)
+{
+  cells.clear();
+  cut_cells.clear();
+  for (const unsigned int cell : space.owned_cells())
+  {
+    const CellLocation location = geometry.location(cell);
+    CondensedIndices indices;
+    for (unsigned int fluid = 0; fluid < 2; ++fluid)
+      if (geometry.is_active(cell, fluid))
+        space.active_dofs(fluid).append(space.cell_dofs(cell), indices);
+    ActiveDofs<dim>::finish(indices);
+    cells.push_back({cell, system.add_element(std::move(indices)), location});
+    if (location == CellLocation::cut)
+      cut_cells.push_back(cells.back());
+  }
+  AssertDimension(cut_cells.size(), geometry.cut_cells().size());
+}
+
+template <int dim>
+void StokesAssembler<dim>::add_face_elements(const CutGeometry<dim> &geometry, ElementSystem &system)
+{
+  faces.clear();
+  std::vector<types::global_dof_index> dofs;
+  const auto add_element = [&](const InteriorFace &face, const unsigned int fluid, const unsigned int begin,
+                               const unsigned int end)
+  {
+    dofs.clear();
+    for (const unsigned int cell : {face.first, face.second})
+      dofs.insert(dofs.end(), space.cell_dofs(cell).begin() + begin, space.cell_dofs(cell).begin() + end);
+    CondensedIndices indices;
+    space.active_dofs(fluid).append(dofs, indices);
+    ActiveDofs<dim>::finish(indices);
+    return system.add_element(std::move(indices));
+  };
+
+  for (const InteriorFace &face : space.interior_faces())
+  {
+    if (geometry.location(face.first) != CellLocation::cut &&
+        geometry.location(face.second) != CellLocation::cut)
+      continue;
+    for (unsigned int fluid = 0; fluid < 2; ++fluid)
+      if (geometry.is_active(face.first, fluid) && geometry.is_active(face.second, fluid))
+      {
+        faces.push_back({&face, fluid, system.n_elements()});
+        for (unsigned int c = 0; c < dim; ++c)
+          add_element(face, fluid, Layout::velocity(c, 0), Layout::velocity(c + 1, 0));
+        add_element(face, fluid, Layout::pressure(0), Layout::n);
+      }
+  }
+}
+
+template <int dim>
+void StokesAssembler<dim>::add_cell_matrices(const CutGeometry<dim> &geometry, ElementSystem &system)
+{
+  FullMatrix<double> cut_matrix(CutCellMatrix<dim>::n, CutCellMatrix<dim>::n);
+  for (const StokesCellElement &c : cells)
+  {
+    const FullMatrix<double> *matrix = &cut_matrix;
+    if (c.location == CellLocation::cut)
+      cut_cell_matrix.compute(*geometry.find(c.cell), cut_matrix);
+    else
+      matrix = &uncut_cell_matrix(c.cell, c.location == CellLocation::inside ? 0 : 1);
+    system.add_matrix(c.element, *matrix);
+    system.add_inhomogeneity(c.element, *matrix, rhs);
+  }
+}
+
+template <int dim>
+void StokesAssembler<dim>::add_face_matrices(ElementSystem &system)
+{
+  FullMatrix<double> velocity(2 * Layout::n_velocity_nodes), pressure(2 * Layout::n_pressure_nodes);
+  for (const FaceElement &f : faces)
+  {
+    const GhostPenaltyMatrices &unit = reference.face(f.face->face_number, f.face->refinement);
+    const double h = space.cell_size(f.face->first);
+    const double viscosity = pair.viscosity[f.fluid];
+    velocity.equ(viscosity * std::pow(h, dim - 2), unit.velocity);
+    pressure.equ(-std::pow(h, dim) / viscosity, unit.pressure);
+    for (unsigned int c = 0; c <= dim; ++c)
+    {
+      const FullMatrix<double> &matrix = c < dim ? velocity : pressure;
+      system.add_matrix(f.first_element + c, matrix);
+      system.add_inhomogeneity(f.first_element + c, matrix, rhs);
+    }
+  }
+}
+
+template <int dim>
+const FullMatrix<double> &StokesAssembler<dim>::uncut_cell_matrix(const unsigned int cell,
+                                                                  const unsigned int fluid)
+{
+  auto &matrix = uncut_matrices[fluid][space.cell_level(cell)];
+  if (matrix.empty())
+    matrix = reference.cell(pair.viscosity[fluid], space.cell_size(cell));
+  return matrix;
+}
+
+template class StokesAssembler<2>;
+template class StokesAssembler<3>;
+} // namespace Gemmule

@@ -1,0 +1,72 @@
+#include <gemmule/geometry/band_level_set.h>
+
+#include <cmath>
+
+namespace Gemmule
+{
+using namespace dealii;
+
+template <int dim>
+std::size_t CartesianCellMap<dim>::KeyHash::operator()(const Key &key) const
+{
+  std::size_t hash = 1469598103934665603ull;
+  for (const int k : key)
+    hash = (hash ^ static_cast<unsigned int>(k)) * 1099511628211ull;
+  return hash ^ (hash >> 29);
+}
+
+template <int dim>
+void CartesianCellMap<dim>::insert(const Point<dim> &corner, const double size, const unsigned int id)
+{
+  unsigned int s = 0;
+  while (s < sizes.size() && std::abs(sizes[s] - size) > 1e-8 * size)
+    ++s;
+  if (s == sizes.size())
+  {
+    sizes.push_back(size);
+    cells.emplace_back();
+  }
+  Key key;
+  for (unsigned int d = 0; d < dim; ++d)
+    key[d] = static_cast<int>(std::lround((corner[d] - origin[d]) / size));
+  cells[s][key] = id;
+}
+
+template <int dim>
+int CartesianCellMap<dim>::find(const Point<dim> &x) const
+{
+  for (unsigned int s = 0; s < sizes.size(); ++s)
+  {
+    Key key;
+    for (unsigned int d = 0; d < dim; ++d)
+      key[d] = static_cast<int>(std::floor((x[d] - origin[d]) / sizes[s]));
+    const auto found = cells[s].find(key);
+    if (found != cells[s].end())
+      return found->second;
+  }
+  return -1;
+}
+
+template <int dim>
+BandLevelSet<dim>::BandLevelSet(const std::vector<LevelSetCell<dim>> &cells_, const Point<dim> &origin)
+    : cells(cells_), map(origin)
+{
+  for (unsigned int c = 0; c < cells.size(); ++c)
+    map.insert(cells[c].corner, cells[c].size, c);
+}
+
+template <int dim>
+std::optional<double> BandLevelSet<dim>::value(const Point<dim> &x) const
+{
+  const int c = map.find(x);
+  if (c < 0)
+    return {};
+  return evaluate_polynomial<dim, 3>(cells[c].level_set, Point<dim>((x - cells[c].corner) / cells[c].size))
+      .value;
+}
+
+template class CartesianCellMap<2>;
+template class CartesianCellMap<3>;
+template class BandLevelSet<2>;
+template class BandLevelSet<3>;
+} // namespace Gemmule

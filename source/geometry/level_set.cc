@@ -1,0 +1,150 @@
+#include <gemmule/algebra/gather.h>
+#include <gemmule/geometry/level_set.h>
+
+#include <deal.II/dofs/dof_tools.h>
+#include <deal.II/numerics/vector_tools_interpolate.h>
+
+#include <cmath>
+
+namespace Gemmule
+{
+using namespace dealii;
+
+namespace
+{
+  // Cells within this many of their own sizes of the membrane get exact distances: those that the membrane
+  // cuts now or can reach within a step, and their neighbours.
+  constexpr double band_in_cells = 2.5;
+} // namespace
+
+template <int dim>
+LevelSet<dim>::LevelSet(const parallel::distributed::Triangulation<dim> &triangulation)
+    : triangulation(triangulation), fe(3), dof_handler(triangulation),
+      node_to_dof(lexicographic_cell_dofs(static_cast<const FiniteElement<dim> &>(fe)))
+{
+}
+
+template <int dim>
+void LevelSet<dim>::reinit_mesh()
+{
+  dof_handler.distribute_dofs(fe);
+  IndexSet relevant;
+  DoFTools::extract_locally_relevant_dofs(dof_handler, relevant);
+  constraints.reinit(relevant);
+  DoFTools::make_hanging_node_constraints(dof_handler, constraints);
+  constraints.close();
+  phi.reinit(dof_handler.locally_owned_dofs(), relevant, triangulation.get_communicator());
+  far_nodes_are_set = false;
+}
+
+template <int dim>
+void LevelSet<dim>::finish()
+{
+  // The rules of the cut cells dislike zeros at nodes: move them off by far less than the discretisation
+  // error.
+  const double tiny = 1e-10 * std::pow(0.5, triangulation.n_global_levels());
+  phi.update_ghost_values();
+  constraints.distribute(phi);
+  for (unsigned int i = 0; i < phi.locally_owned_size(); ++i)
+    if (std::abs(phi.local_element(i)) < tiny)
+      phi.local_element(i) = tiny;
+  phi.update_ghost_values();
+}
+
+template <int dim>
+void LevelSet<dim>::interpolate(const Function<dim> &function)
+{
+  phi.zero_out_ghost_values();
+  VectorTools::interpolate(dof_handler, function, phi);
+  finish();
+}
+
+template <int dim>
+void LevelSet<dim>::set_nodes(const MembraneProjection<dim> &membrane,
+                              const std::function<double(const Point<dim> &)> &accurate)
+{
+  const IndexSet &owned = dof_handler.locally_owned_dofs();
+  // Node by node: 2 exact, 1 approximate, 0 not yet. A node takes the better of what its cells ask for.
+  std::vector<unsigned char> state(owned.n_elements(), 0);
+  std::vector<types::global_dof_index> dofs(fe.n_dofs_per_cell());
+  phi.zero_out_ghost_values();
+  is_in_band.assign(triangulation.n_active_cells(), false);
+  for (const auto &cell : dof_handler.active_cell_iterators())
+  {
+    if (!cell->is_locally_owned() && !cell->is_ghost())
+      continue;
+    const double h = cell->extent_in_direction(0);
+    const bool in_band = std::abs(membrane.approximate_distance(cell->center())) < band_in_cells * h;
+    is_in_band[cell->active_cell_index()] = in_band;
+    if (!in_band && far_nodes_are_set)
+      continue;
+    cell->get_dof_indices(dofs);
+    for (unsigned int i = 0; i < node_to_dof.size(); ++i)
+    {
+      const auto dof = dofs[node_to_dof[i]];
+      if (!owned.is_element(dof))
+        continue;
+      unsigned char &done = state[owned.index_within_set(dof)];
+      if (done == 2 || (done == 1 && !in_band))
+        continue;
+      const Point<dim> x = cell->vertex(0) + h * Tensor<1, dim>(TensorLagrange<dim, 3>::node(i));
+      phi(dof) = in_band ? accurate(x) : membrane.approximate_distance(x);
+      done = in_band ? 2 : 1;
+    }
+  }
+  far_nodes_are_set = true;
+  finish();
+}
+
+template <int dim>
+void LevelSet<dim>::set_distance(const MembraneProjection<dim> &membrane)
+{
+  set_nodes(membrane, [&](const Point<dim> &x) { return membrane.project(x).distance; });
+}
+
+template <int dim>
+void LevelSet<dim>::advance(const MembraneMotion<dim> &motion, const BandLevelSet<dim> &old_level_set,
+                            const bool redistance)
+{
+  set_nodes(motion.old_membrane(),
+            [&](const Point<dim> &x)
+            {
+              const auto trajectory = motion.trace_back(x);
+              if (!redistance)
+                if (const auto value = old_level_set.value(x - trajectory.displacement))
+                  return *value;
+              return trajectory.foot.distance;
+            });
+}
+
+template <int dim>
+std::vector<LevelSetCell<dim>> LevelSet<dim>::gather_band() const
+{
+  std::vector<LevelSetCell<dim>> local;
+  std::vector<types::global_dof_index> dofs(fe.n_dofs_per_cell());
+  for (const auto &cell : dof_handler.active_cell_iterators())
+    if (!is_in_band.empty() && cell->is_locally_owned() && is_in_band[cell->active_cell_index()])
+    {
+      LevelSetCell<dim> band_cell;
+      band_cell.corner = cell->vertex(0);
+      band_cell.size = cell->extent_in_direction(0);
+      cell->get_dof_indices(dofs);
+      for (unsigned int i = 0; i < node_to_dof.size(); ++i)
+        band_cell.level_set[i] = phi(dofs[node_to_dof[i]]);
+      local.push_back(band_cell);
+    }
+  return gather_plain(local, triangulation.get_communicator());
+}
+
+template <int dim>
+void LevelSet<dim>::shift(const double amount)
+{
+  phi.zero_out_ghost_values();
+  for (unsigned int i = 0; i < phi.locally_owned_size(); ++i)
+    phi.local_element(i) += amount;
+  finish();
+}
+
+template class LevelSet<2>;
+template class LevelSet<3>;
+} // namespace Gemmule

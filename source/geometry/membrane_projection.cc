@@ -1,0 +1,305 @@
+#include <gemmule/geometry/membrane_projection.h>
+#include <gemmule/parameters/errors.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace Gemmule
+{
+using namespace dealii;
+
+namespace
+{
+  /** The level set of a patch in units of the cell size. */
+  template <int dim>
+  PolynomialValue<dim> local_level_set(const MembranePatch<dim> &patch, const Point<dim> &unit_point)
+  {
+    auto phi = evaluate_polynomial<dim, 3, 2>(patch.level_set, unit_point);
+    const double scale = 1. / patch.size;
+    phi.value *= scale;
+    phi.gradient *= scale;
+    phi.hessian *= scale;
+    return phi;
+  }
+
+  template <int dim>
+  bool in_unit_cell(const Point<dim> &p, const double tolerance)
+  {
+    for (unsigned int d = 0; d < dim; ++d)
+      if (p[d] < -tolerance || p[d] > 1. + tolerance)
+        return false;
+    return true;
+  }
+} // namespace
+
+template <int dim>
+std::size_t MembraneProjection<dim>::KeyHash::operator()(const Key &key) const
+{
+  std::size_t hash = 1469598103934665603ull;
+  for (const int k : key)
+    hash = (hash ^ static_cast<unsigned int>(k)) * 1099511628211ull;
+  return hash ^ (hash >> 29);
+}
+
+template <int dim>
+MembraneProjection<dim>::MembraneProjection(const std::vector<MembranePatch<dim>> &patches_,
+                                            const Point<dim> &origin_)
+    : patches(patches_), origin(origin_), patch_map(origin_)
+{
+  if (patches.empty())
+    throw SimulationError("The membrane has vanished: no cell of the mesh is cut by it any more.");
+
+  for (const auto &patch : patches)
+    bin_size = std::max(bin_size, patch.size);
+  for (unsigned int p = 0; p < patches.size(); ++p)
+  {
+    const auto &patch = patches[p];
+    patch_map.insert(patch.corner, patch.size, p);
+
+    // Nodes of the cell, moved onto the membrane along the gradient: samples where they stay in the cell.
+    const std::size_t first = all_samples.size();
+    for (unsigned int i = 0; i < TensorLagrange<dim, 3>::n; ++i)
+    {
+      Point<dim> y = TensorLagrange<dim, 3>::node(i);
+      bool good = false;
+      for (unsigned int iteration = 0; iteration < 8; ++iteration)
+      {
+        const auto phi = local_level_set(patch, y);
+        const double norm_square = phi.gradient.norm_square();
+        if (norm_square < 1e-20)
+          break;
+        const Tensor<1, dim> step = -phi.value / norm_square * phi.gradient;
+        if (step.norm() > 1.)
+          break;
+        y += step;
+        if (step.norm() < 1e-8)
+        {
+          good = in_unit_cell(y, 1e-3);
+          break;
+        }
+      }
+      if (good)
+      {
+        const auto phi = local_level_set(patch, y);
+        all_samples.push_back(
+            {patch.corner + patch.size * Tensor<1, dim>(y), phi.gradient / phi.gradient.norm(), y, p});
+      }
+    }
+    if (all_samples.size() > first)
+      primary_samples.push_back(first);
+  }
+  if (all_samples.empty())
+    throw SimulationError("The membrane has degenerated: no point of it could be found in the cut cells.");
+
+  for (unsigned int i = 0; i < all_samples.size(); ++i)
+  {
+    Key key;
+    for (unsigned int d = 0; d < dim; ++d)
+      key[d] = static_cast<int>(std::floor((all_samples[i].point[d] - origin[d]) / bin_size));
+    bins[key].push_back(i);
+  }
+}
+
+template <int dim>
+unsigned int MembraneProjection<dim>::nearest_sample(const Point<dim> &x) const
+{
+  Key center;
+  for (unsigned int d = 0; d < dim; ++d)
+    center[d] = static_cast<int>(std::floor((x[d] - origin[d]) / bin_size));
+  double best = std::numeric_limits<double>::max();
+  unsigned int nearest = 0;
+  const auto visit = [&](const unsigned int i)
+  {
+    const double distance = x.distance_square(all_samples[i].point);
+    if (distance < best)
+    {
+      best = distance;
+      nearest = i;
+    }
+  };
+  // rings of bins around the point; what lies beyond ring r is at least r bins away
+  const int n_rings = 3;
+  for (int ring = 0; ring <= n_rings; ++ring)
+  {
+    if (ring > 0 && best <= (ring - 1.) * (ring - 1.) * bin_size * bin_size)
+      return nearest;
+    const int width = 2 * ring + 1;
+    const int n_bins = dim == 2 ? width * width : width * width * width;
+    for (int b = 0; b < n_bins; ++b)
+    {
+      Key key;
+      int radius = 0;
+      for (int d = 0, rest = b; d < dim; ++d, rest /= width)
+      {
+        const int offset = rest % width - ring;
+        radius = std::max(radius, std::abs(offset));
+        key[d] = center[d] + offset;
+      }
+      if (radius != ring)
+        continue;
+      const auto bin = bins.find(key);
+      if (bin != bins.end())
+        for (const unsigned int i : bin->second)
+          visit(i);
+    }
+  }
+  if (best <= n_rings * n_rings * bin_size * bin_size)
+    return nearest;
+  for (const unsigned int i : primary_samples)
+    visit(i);
+  return nearest;
+}
+
+template <int dim>
+ClosestPoint<dim> MembraneProjection<dim>::newton(const Point<dim> &x, unsigned int p, Point<dim> y) const
+{
+  ClosestPoint<dim> result;
+  const auto local = [&](const Point<dim> &point)
+  { return Point<dim>((point - patches[p].corner) / patches[p].size); };
+  Point<dim> target = local(x);
+  bool known_multiplier = false;
+  double multiplier = 0.;
+  unsigned int n_switches = 0;
+  for (unsigned int iteration = 0; iteration < 30; ++iteration)
+  {
+    const auto phi = local_level_set(patches[p], y);
+    const double norm_square = phi.gradient.norm_square();
+    if (norm_square < 1e-12)
+      return result;
+    if (!known_multiplier)
+    {
+      multiplier = ((target - y) * phi.gradient) / norm_square;
+      known_multiplier = true;
+    }
+    const Tensor<1, dim> residual = y - target + multiplier * phi.gradient;
+    Tensor<2, dim> matrix = multiplier * phi.hessian;
+    for (unsigned int d = 0; d < dim; ++d)
+      matrix[d][d] += 1.;
+    Tensor<1, dim> step;
+    double multiplier_step = 0.;
+    // Positive definite on the tangent space means a minimum of the distance; otherwise fall back to moving
+    // along the gradient and the tangent plane in turn.
+    bool usable = determinant(matrix) > 0.05;
+    if (usable)
+    {
+      const Tensor<2, dim> inverse = invert(matrix);
+      const double denominator = phi.gradient * (inverse * phi.gradient);
+      usable = denominator > 1e-3 * norm_square;
+      if (usable)
+      {
+        multiplier_step = (phi.value - phi.gradient * (inverse * residual)) / denominator;
+        step = -(inverse * (residual + multiplier_step * phi.gradient));
+      }
+    }
+    if (!usable)
+    {
+      const Tensor<1, dim> difference = target - y;
+      step = -phi.value / norm_square * phi.gradient +
+             0.5 * (difference - (difference * phi.gradient) / norm_square * phi.gradient);
+      known_multiplier = false;
+    }
+    const double length = step.norm();
+    if (length > 0.5)
+    {
+      step *= 0.5 / length;
+      known_multiplier = false;
+    }
+    y += step;
+    multiplier += multiplier_step;
+
+    if (!in_unit_cell(y, 1e-3) && n_switches < 12)
+    {
+      const Point<dim> physical = patches[p].corner + patches[p].size * Tensor<1, dim>(y);
+      const int other = patch_map.find(physical);
+      if (other >= 0 && static_cast<unsigned int>(other) != p)
+      {
+        p = other;
+        y = local(physical);
+        target = local(x);
+        known_multiplier = false;
+        ++n_switches;
+        continue;
+      }
+    }
+    if (length < 1e-7) // quadratic convergence: the next step would be below round-off
+    {
+      const auto final = local_level_set(patches[p], y);
+      result.converged = std::abs(final.value) < 1e-10 && in_unit_cell(y, 0.5);
+      result.patch = p;
+      result.unit_point = y;
+      result.point = patches[p].corner + patches[p].size * Tensor<1, dim>(y);
+      result.normal = final.gradient / final.gradient.norm();
+      const Tensor<1, dim> difference = x - result.point;
+      result.distance = std::copysign(difference.norm(), difference * result.normal);
+      return result;
+    }
+  }
+  return result;
+}
+
+template <int dim>
+ClosestPoint<dim> MembraneProjection<dim>::project(const Point<dim> &x) const
+{
+  const Sample &sample = all_samples[nearest_sample(x)];
+  ClosestPoint<dim> result = newton(x, sample.patch, sample.unit_point);
+  const Tensor<1, dim> difference = x - sample.point;
+  // Newton may end on another sheet of the membrane; the sample is then the better answer.
+  if (!result.converged || std::abs(result.distance) > difference.norm() * (1. + 1e-8) + 1e-12)
+  {
+    result.converged = false;
+    result.patch = sample.patch;
+    result.unit_point = sample.unit_point;
+    result.point = sample.point;
+    result.normal = sample.normal;
+    result.distance = std::copysign(difference.norm(), difference * sample.normal);
+  }
+  return result;
+}
+
+template <int dim>
+ClosestPoint<dim> MembraneProjection<dim>::project(const Point<dim> &x, const ClosestPoint<dim> &guess) const
+{
+  if (guess.converged)
+  {
+    const ClosestPoint<dim> result = newton(x, guess.patch, guess.unit_point);
+    if (result.converged && std::abs(result.distance) <= x.distance(guess.point) * (1. + 1e-8) + 1e-12)
+      return result;
+  }
+  return project(x);
+}
+
+template <int dim>
+double MembraneProjection<dim>::approximate_distance(const Point<dim> &x) const
+{
+  const Sample &sample = all_samples[nearest_sample(x)];
+  const Tensor<1, dim> difference = x - sample.point;
+  return std::copysign(difference.norm(), difference * sample.normal);
+}
+
+template <int dim>
+double MembraneProjection<dim>::curvature(const Sample &sample) const
+{
+  const MembranePatch<dim> &patch = patches[sample.patch];
+  const auto phi = local_level_set(patch, sample.unit_point);
+  const double norm = phi.gradient.norm();
+  const Tensor<1, dim> n = phi.gradient / norm;
+  return (trace(phi.hessian) - n * (phi.hessian * n)) / (norm * patch.size);
+}
+
+template <int dim>
+double MembraneProjection<dim>::distance_drift() const
+{
+  double drift = 0.;
+  for (const unsigned int i : primary_samples)
+  {
+    const auto &sample = all_samples[i];
+    drift = std::max(
+        drift, std::abs(local_level_set(patches[sample.patch], sample.unit_point).gradient.norm() - 1.));
+  }
+  return drift;
+}
+
+template class MembraneProjection<2>;
+template class MembraneProjection<3>;
+} // namespace Gemmule

@@ -1,0 +1,143 @@
+#include <gemmule/output/disk.h>
+#include <gemmule/output/field_output.h>
+#include <gemmule/output/hdf5_file.h>
+#include <gemmule/output/rank_zero.h>
+#include <gemmule/parameters/errors.h>
+
+#include <deal.II/base/geometry_info.h>
+#include <deal.II/base/mpi.h>
+
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <iomanip>
+#include <sstream>
+
+namespace Gemmule
+{
+namespace
+{
+  std::string file_name(const std::size_t number)
+  {
+    std::ostringstream name;
+    name << "solution-" << std::setw(5) << std::setfill('0') << number << ".h5";
+    return name.str();
+  }
+
+  /** What solution.xdmf has to say of an existing file. */
+  template <int dim>
+  dealii::XDMFEntry read_entry(const Hdf5File &file, const std::string &name)
+  {
+    dealii::XDMFEntry entry(name, name, file.number_attribute("/", "time"), file.extent("nodes")[0],
+                            file.extent("cells")[0], dim, dim);
+    for (const std::string &field : file.members())
+      if (field != "nodes" && field != "cells")
+      {
+        const std::vector<std::size_t> extent = file.extent(field);
+        entry.add_attribute(field, extent.size() > 1 ? extent[1] : 1);
+      }
+    return entry;
+  }
+
+  /** Bytes that this rank contributes to a file, with some more for HDF5 itself. */
+  template <int dim>
+  std::size_t n_bytes_here(const dealii::DataOutBase::DataOutFilter &filter)
+  {
+    std::size_t numbers_per_node = dim;
+    for (unsigned int set = 0; set < filter.n_data_sets(); ++set)
+      numbers_per_node += filter.get_data_set_dim(set);
+    return filter.n_nodes() * numbers_per_node * sizeof(double) +
+           filter.n_cells() * dealii::GeometryInfo<dim>::vertices_per_cell * sizeof(unsigned int) + 65536;
+  }
+
+  template <int dim>
+  std::string xdmf_text(const std::vector<dealii::XDMFEntry> &entries)
+  {
+    std::string text = "<?xml version=\"1.0\" ?>\n<!DOCTYPE Xdmf SYSTEM \"Xdmf.dtd\" []>\n"
+                       "<Xdmf Version=\"2.0\">\n<Domain>\n"
+                       "<Grid Name=\"fields\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
+    for (const dealii::XDMFEntry &entry : entries)
+      text += entry.get_xdmf_content(1, dealii::ReferenceCells::get_hypercube<dim>());
+    return text + "</Grid>\n</Domain>\n</Xdmf>\n";
+  }
+} // namespace
+
+template <int dim>
+FieldWriter<dim>::FieldWriter(const std::string &directory, const MPI_Comm &communicator,
+                              const double resume_after_time)
+    : directory(directory), communicator(communicator)
+{
+  on_rank_zero(communicator,
+               [&]()
+               {
+                 if (std::isfinite(resume_after_time))
+                   find_earlier_files(resume_after_time);
+                 n_written = entries.size();
+               });
+  n_written = dealii::Utilities::MPI::broadcast(communicator, n_written, 0);
+}
+
+template <int dim>
+void FieldWriter<dim>::find_earlier_files(const double resume_after_time)
+{
+  const double limit = resume_after_time + 1e-12 * std::max(1., std::abs(resume_after_time));
+  for (std::string path = directory + "/" + file_name(0); std::filesystem::exists(path);
+       path = directory + "/" + file_name(entries.size()))
+  {
+    const Hdf5File file(path, Hdf5File::Mode::read);
+    // The attribute is written last: a file without it is what a kill has left of an output.
+    if (!file.has_attribute("/", "time") || file.number_attribute("/", "time") > limit)
+      break;
+    entries.push_back(read_entry<dim>(file, file_name(entries.size())));
+  }
+  for (std::size_t number = entries.size(); std::filesystem::remove(directory + "/" + file_name(number));
+       ++number)
+  {
+  }
+}
+
+template <int dim>
+void FieldWriter<dim>::write(const dealii::DataOutInterface<dim, dim> &data, const double time)
+{
+  const std::string name = file_name(n_written);
+  const std::string path = directory + "/" + name;
+
+  dealii::DataOutBase::DataOutFilter filter(
+      // Neighbours disagree on what belongs to a cell, so each keeps its own vertices.
+      dealii::DataOutBase::DataOutFilterFlags(/*filter_duplicate_vertices =*/false,
+                                              /*xdmf_hdf5_output =*/true));
+  data.write_filtered_data(filter);
+  const std::size_t n_bytes = dealii::Utilities::MPI::sum(n_bytes_here<dim>(filter), communicator);
+  on_rank_zero(communicator, [&]() { reserve_space(path, n_bytes); });
+
+  bool failed_here = false;
+  try
+  {
+    const Hdf5Silence silence;
+    data.write_hdf5_parallel(filter, path, communicator);
+  }
+  catch (const std::exception &)
+  {
+    failed_here = true;
+  }
+  if (dealii::Utilities::MPI::logical_or(failed_here, communicator))
+    throw SimulationError("Cannot write " + path +
+                          ": is the disk full, or the directory write-protected? Make room and go on with "
+                          "--resume.");
+
+  const dealii::XDMFEntry entry = data.create_xdmf_entry(filter, name, time, communicator);
+  on_rank_zero(communicator,
+               [&]()
+               {
+                 Hdf5File file(path, Hdf5File::Mode::modify);
+                 file.set_attribute("/", "time", time);
+                 file.close();
+                 entries.push_back(entry);
+                 replace_file(directory + "/solution.xdmf", xdmf_text<dim>(entries));
+               });
+  ++n_written;
+}
+
+template class FieldWriter<2>;
+template class FieldWriter<3>;
+} // namespace Gemmule

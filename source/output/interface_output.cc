@@ -1,0 +1,225 @@
+#include <gemmule/output/disk.h>
+#include <gemmule/output/hdf5_file.h>
+#include <gemmule/output/interface_output.h>
+#include <gemmule/output/rank_zero.h>
+#include <gemmule/version.h>
+
+#include <deal.II/base/exceptions.h>
+
+#include <cmath>
+#include <filesystem>
+#include <iomanip>
+#include <sstream>
+
+namespace Gemmule
+{
+namespace
+{
+  /** Of interface.h5; raised when something is renamed or changes its meaning. */
+  constexpr int schema_version = 1;
+
+  const std::string file_name = "interface.h5";
+  const std::string group_prefix = "step_";
+
+  std::string group_name(const std::size_t number)
+  {
+    std::ostringstream name;
+    name << group_prefix << std::setw(5) << std::setfill('0') << number;
+    return name.str();
+  }
+
+  /** The components of all vectors, one after the other. */
+  template <int dim>
+  std::vector<double> flatten(const std::vector<dealii::Tensor<1, dim>> &vectors)
+  {
+    std::vector<double> components;
+    components.reserve(vectors.size() * dim);
+    for (const auto &vector : vectors)
+      components.insert(components.end(), vector.begin_raw(), vector.end_raw());
+    return components;
+  }
+
+  template <int dim>
+  std::vector<double> flatten(const std::vector<dealii::Point<dim>> &points)
+  {
+    return flatten(std::vector<dealii::Tensor<1, dim>>(points.begin(), points.end()));
+  }
+
+  template <int dim>
+  using ScalarMember = std::vector<double> InterfaceSamples<dim>::*;
+
+  /** The scalar datasets, by name, in the order of the contract; both files are written from this list. */
+  template <int dim>
+  std::vector<std::pair<std::string, ScalarMember<dim>>> scalars()
+  {
+    using Samples = InterfaceSamples<dim>;
+    return {{"f", &Samples::f},
+            {"f_total", &Samples::f_total},
+            {"composition", &Samples::composition},
+            {"tension", &Samples::tension},
+            {"chemical_potential", &Samples::chemical_potential},
+            {"curvature", &Samples::curvature},
+            {"weights", &Samples::weights}};
+  }
+
+  template <int dim>
+  using VectorMember = std::vector<dealii::Tensor<1, dim>> InterfaceSamples<dim>::*;
+
+  template <int dim>
+  std::vector<std::pair<std::string, VectorMember<dim>>> vectors()
+  {
+    return {{"velocity", &InterfaceSamples<dim>::velocity}, {"normal", &InterfaceSamples<dim>::normal}};
+  }
+
+  /** XDMF's reference to a dataset of numbers of the given type (Float: double precision). */
+  std::string data_item(const std::string &extents, const std::string &dataset,
+                        const std::string &type = "Float")
+  {
+    return "<DataItem Dimensions=\"" + extents + "\" NumberType=\"" + type + "\" Precision=\"" +
+           (type == "Float" ? "8" : "4") + "\" Format=\"HDF\">" + file_name + ":/" + dataset + "</DataItem>";
+  }
+} // namespace
+
+template <int dim>
+InterfaceWriter<dim>::InterfaceWriter(const std::string &directory, const MPI_Comm &communicator,
+                                      const std::string &command_line, const double resume_after_time)
+    : directory(directory), communicator(communicator), command_line(command_line)
+{
+  on_rank_zero(communicator, [&]() { start(resume_after_time); });
+}
+
+template <int dim>
+void InterfaceWriter<dim>::start(const double resume_after_time)
+{
+  if (!std::isfinite(resume_after_time) || !std::filesystem::exists(directory + "/" + file_name))
+  {
+    create_file();
+    write_xdmf();
+    return;
+  }
+
+  const double limit = resume_after_time + 1e-12 * std::max(1., std::abs(resume_after_time));
+  Hdf5File file(directory + "/" + file_name, Hdf5File::Mode::modify);
+  for (const std::string &group : file.members())
+  {
+    if (group.compare(0, group_prefix.size(), group_prefix) != 0)
+      continue;
+    // The attribute is written last: a group without it is what a kill has left of an output.
+    const bool is_complete = file.has_attribute(group, "time");
+    const double time = is_complete ? file.number_attribute(group, "time") : 0.;
+    if (is_complete && time <= limit)
+      entries.push_back(
+          {group, time, file.extent(group + "/points")[0], file.extent(group + "/connectivity")[0]});
+    else
+      file.remove(group);
+  }
+  file.close();
+  write_xdmf();
+}
+
+template <int dim>
+void InterfaceWriter<dim>::create_file() const
+{
+  Hdf5File file(directory + "/" + file_name, Hdf5File::Mode::create);
+  file.set_attribute("/", "schema_version", schema_version);
+  file.set_attribute("/", "gemmule_version", std::string(GEMMULE_VERSION));
+  file.set_attribute("/", "git_revision", std::string(GEMMULE_GIT_REVISION));
+  file.set_attribute("/", "command_line", command_line);
+  file.close();
+}
+
+template <int dim>
+void InterfaceWriter<dim>::write(const InterfaceSamples<dim> &samples)
+{
+  on_rank_zero(communicator, [&]() { append(samples); });
+}
+
+template <int dim>
+void InterfaceWriter<dim>::append(const InterfaceSamples<dim> &samples)
+{
+  const std::size_t n_points = samples.points.size();
+  const std::string group = group_name(entries.size());
+  const std::size_t numbers_per_point = scalars<dim>().size() + (1 + vectors<dim>().size()) * dim;
+  const std::size_t n_bytes =
+      n_points * numbers_per_point * sizeof(double) + samples.connectivity.size() * 2 * sizeof(unsigned int);
+  Hdf5File file(directory + "/" + file_name, Hdf5File::Mode::modify, n_bytes);
+  file.create_group(group);
+  file.write(group + "/points", flatten(samples.points), dim);
+  for (const auto &[name, member] : scalars<dim>())
+  {
+    AssertDimension((samples.*member).size(), n_points);
+    file.write(group + "/" + name, samples.*member);
+  }
+  for (const auto &[name, member] : vectors<dim>())
+  {
+    AssertDimension((samples.*member).size(), n_points);
+    file.write(group + "/" + name, flatten(samples.*member), dim);
+  }
+  std::vector<unsigned int> segments;
+  for (const auto &segment : samples.connectivity)
+    segments.insert(segments.end(), segment.begin(), segment.end());
+  file.write(group + "/connectivity", segments, 2);
+  file.set_attribute(group, "time", samples.time);
+  file.close();
+
+  entries.push_back({group, samples.time, n_points, samples.connectivity.size()});
+  write_xdmf();
+}
+
+template <int dim>
+void InterfaceWriter<dim>::write_xdmf() const
+{
+  std::ostringstream out;
+  out << std::setprecision(17) << "<?xml version=\"1.0\"?>\n<!DOCTYPE Xdmf SYSTEM \"Xdmf.dtd\" []>\n"
+      << "<Xdmf Version=\"2.0\">\n<Domain>\n"
+      << "<Grid Name=\"membrane\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
+  for (const Entry &entry : entries)
+  {
+    const std::string points = std::to_string(entry.n_points);
+    const std::string segments = std::to_string(entry.n_segments);
+    const std::string vector_extents = points + " " + std::to_string(dim);
+    const auto attribute = [&](const std::string &name, const std::string &kind, const std::string &item)
+    {
+      out << "<Attribute Name=\"" << name << "\" AttributeType=\"" << kind << "\" Center=\"Node\">" << item
+          << "</Attribute>\n";
+    };
+
+    out << "<Grid Name=\"" << entry.group << "\" GridType=\"Uniform\">\n<Time Value=\"" << entry.time
+        << "\"/>\n<Geometry GeometryType=\"" << (dim == 2 ? "XY" : "XYZ") << "\">"
+        << data_item(vector_extents, entry.group + "/points") << "</Geometry>\n";
+    if (entry.n_segments > 0)
+      out << "<Topology TopologyType=\"Polyline\" NodesPerElement=\"2\" NumberOfElements=\"" << segments
+          << "\">" << data_item(segments + " 2", entry.group + "/connectivity", "UInt") << "</Topology>\n";
+    else
+      out << "<Topology TopologyType=\"Polyvertex\" NumberOfElements=\"" << points << "\"/>\n";
+
+    for (const auto &scalar : scalars<dim>())
+      attribute(scalar.first, "Scalar", data_item(points, entry.group + "/" + scalar.first));
+    for (const auto &vector : vectors<dim>())
+    {
+      const std::string item = data_item(vector_extents, entry.group + "/" + vector.first);
+      if constexpr (dim == 3)
+        attribute(vector.first, "Vector", item);
+      else
+      {
+        // XDMF knows vectors of three components only.
+        const auto component = [&](const unsigned int c)
+        {
+          return "<DataItem ItemType=\"HyperSlab\" Dimensions=\"" + points +
+                 " 1\"><DataItem Dimensions=\"3 2\" Format=\"XML\">0 " + std::to_string(c) + " 1 1 " +
+                 points + " 1</DataItem>" + item + "</DataItem>";
+        };
+        attribute(vector.first, "Vector",
+                  "<DataItem ItemType=\"Function\" Function=\"JOIN($0, $1, 0*$0)\" Dimensions=\"" + points +
+                      " 3\">" + component(0) + component(1) + "</DataItem>");
+      }
+    }
+    out << "</Grid>\n";
+  }
+  out << "</Grid>\n</Domain>\n</Xdmf>\n";
+  replace_file(directory + "/interface.xdmf", out.str());
+}
+
+template class InterfaceWriter<2>;
+template class InterfaceWriter<3>;
+} // namespace Gemmule

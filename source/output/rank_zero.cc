@@ -1,0 +1,53 @@
+#include <gemmule/output/rank_zero.h>
+#include <gemmule/parameters/errors.h>
+
+#include <string>
+
+namespace Gemmule
+{
+namespace
+{
+  enum Outcome : int
+  {
+    success = 0,
+    user_error = 1,
+    simulation_error = 2
+  };
+} // namespace
+
+void on_rank_zero(const MPI_Comm &communicator, const std::function<void()> &action)
+{
+  int rank = 0;
+  MPI_Comm_rank(communicator, &rank);
+
+  std::string message;
+  int report[2] = {success, 0}; // outcome, length of the message
+  if (rank == 0)
+  {
+    try
+    {
+      action();
+    }
+    catch (const UserError &error)
+    {
+      report[0] = user_error;
+      message = error.what();
+    }
+    catch (const std::exception &error)
+    {
+      report[0] = simulation_error;
+      message = error.what();
+    }
+    report[1] = static_cast<int>(message.size());
+  }
+
+  MPI_Bcast(report, 2, MPI_INT, 0, communicator);
+  if (report[0] == success)
+    return;
+  message.resize(report[1]);
+  MPI_Bcast(message.data(), report[1], MPI_CHAR, 0, communicator);
+  if (report[0] == user_error)
+    throw UserError(message);
+  throw SimulationError(message);
+}
+} // namespace Gemmule

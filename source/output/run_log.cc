@@ -1,0 +1,155 @@
+#include <gemmule/output/run_log.h>
+#include <gemmule/parameters/errors.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <iostream>
+#include <limits>
+#include <sstream>
+#include <unistd.h>
+
+namespace Gemmule
+{
+namespace
+{
+  /** Seconds of wall clock between two progress lines where a line cannot be rewritten. */
+  constexpr double seconds_between_lines = 10.;
+  /** The same on a terminal: as often as the eye follows. */
+  constexpr double seconds_between_refreshes = 0.1;
+  /** Seconds of wall clock over which the pace is averaged: time steps grow, the start says little. */
+  constexpr double pace_window = 60.;
+
+  double seconds_now()
+  {
+    using namespace std::chrono;
+    return duration<double>(steady_clock::now().time_since_epoch()).count();
+  }
+
+  bool is_rank_zero(const MPI_Comm &communicator)
+  {
+    int rank = 0;
+    MPI_Comm_rank(communicator, &rank);
+    return rank == 0;
+  }
+} // namespace
+
+RunLog::Console::Console() : Console(std::cout, isatty(STDOUT_FILENO) == 1, seconds_now) {}
+
+RunLog::Console::Console(std::ostream &stream, const bool is_terminal, std::function<double()> wall_seconds)
+    : stream(stream), is_terminal(is_terminal), wall_seconds(std::move(wall_seconds))
+{
+}
+
+RunLog::RunLog(const std::string &directory, const MPI_Comm &communicator, const bool append,
+               const Console &console)
+    : is_active(is_rank_zero(communicator)), console(console)
+{
+  bool is_open = true;
+  const std::string path = directory + "/log.txt";
+  if (is_active)
+  {
+    file.open(path, append ? std::ios::app : std::ios::trunc);
+    is_open = file.is_open();
+  }
+  // All ranks or none: the others would wait for rank 0 for ever.
+  int all_open = is_open;
+  MPI_Bcast(&all_open, 1, MPI_INT, 0, communicator);
+  if (!all_open)
+    throw UserError("Cannot write " + path + ": check that the directory exists and is writable.");
+}
+
+RunLog::~RunLog()
+{
+  end_progress_line();
+}
+
+void RunLog::info(const std::string &text)
+{
+  write_line(text);
+}
+
+void RunLog::warn(const std::string &text)
+{
+  write_line("warning: " + text);
+}
+
+void RunLog::warn_once(const std::string &key, const std::string &text)
+{
+  if (warnings_given.insert(key).second)
+    warn(text);
+}
+
+void RunLog::write_line(const std::string &line)
+{
+  if (!is_active)
+    return;
+  end_progress_line();
+  console.stream << line << std::endl;
+  file << line << std::endl;
+}
+
+void RunLog::end_progress_line()
+{
+  if (open_line_length > 0)
+    console.stream << std::endl;
+  open_line_length = 0;
+}
+
+void RunLog::progress(const double time, const double end_time, const unsigned int step,
+                      const double time_step)
+{
+  if (!is_active)
+    return;
+  const double now = console.wall_seconds();
+  pace.emplace_back(now, time);
+  while (pace.size() > 2 && pace.front().first < now - pace_window)
+    pace.pop_front();
+
+  const bool is_last = time >= end_time;
+  const double interval = console.is_terminal ? seconds_between_refreshes : seconds_between_lines;
+  if (!is_last && last_shown && now - *last_shown < interval)
+    return;
+  last_shown = now;
+
+  const double simulated = time - pace.front().second;
+  const double seconds_left = is_last         ? 0.
+                              : simulated > 0 ? (end_time - time) * (now - pace.front().first) / simulated
+                                              : std::numeric_limits<double>::infinity();
+  const std::string line = format_progress(time, end_time, step, time_step, seconds_left);
+  if (!console.is_terminal)
+  {
+    console.stream << line << std::endl;
+    return;
+  }
+  const std::string blanks(open_line_length > line.size() ? open_line_length - line.size() : 0, ' ');
+  console.stream << '\r' << line << blanks << std::flush;
+  open_line_length = line.size();
+}
+
+std::string format_duration(const double seconds)
+{
+  if (!std::isfinite(seconds))
+    return "?";
+  const long whole = std::lround(std::max(seconds, 0.));
+  char text[64];
+  if (whole < 60)
+    std::snprintf(text, sizeof(text), "%ld s", whole);
+  else if (whole < 3600)
+    std::snprintf(text, sizeof(text), "%ld min %02ld s", whole / 60, whole % 60);
+  else
+    std::snprintf(text, sizeof(text), "%ld h %02ld min", whole / 3600, whole / 60 % 60);
+  return text;
+}
+
+std::string format_progress(const double time, const double end_time, const unsigned int step,
+                            const double time_step, const double seconds_left)
+{
+  const double percent = end_time > 0. ? 100. * std::min(time / end_time, 1.) : 100.;
+  char text[160];
+  // Rounded down, so that 100 % means finished.
+  std::snprintf(text, sizeof(text), "%3.0f %%  time %.4f of %g, step %u, step size %.2e, ",
+                std::floor(percent), time, end_time, step, time_step);
+  return text + (seconds_left > 0. ? format_duration(seconds_left) + " left" : std::string("finished"));
+}
+} // namespace Gemmule

@@ -1,0 +1,121 @@
+#include <gemmule/parameters/errors.h>
+#include <gemmule/parameters/expression.h>
+#include <gemmule/parameters/section.h>
+
+#include <deal.II/base/function_parser.h>
+#include <deal.II/base/numbers.h>
+#include <deal.II/base/utilities.h>
+
+#include <cmath>
+#include <iostream>
+#include <sstream>
+
+namespace Gemmule
+{
+namespace
+{
+  /** deal.II writes what muParser complains about to std::cerr before it throws; we report it ourselves. */
+  class SilencedErrorStream
+  {
+  public:
+    SilencedErrorStream() : original(std::cerr.rdbuf(discarded.rdbuf())) {}
+    ~SilencedErrorStream() { std::cerr.rdbuf(original); }
+    SilencedErrorStream(const SilencedErrorStream &) = delete;
+    SilencedErrorStream &operator=(const SilencedErrorStream &) = delete;
+
+  private:
+    std::ostringstream discarded;
+    std::streambuf *original;
+  };
+
+  std::string complaint(const dealii::ExceptionBase &error)
+  {
+    std::ostringstream text;
+    error.print_info(text);
+    const std::string marker = "The parser said: ";
+    const std::string::size_type start = text.str().find(marker);
+    return dealii::Utilities::trim(start == std::string::npos ? text.str()
+                                                              : text.str().substr(start + marker.size()));
+  }
+
+  template <int dim>
+  std::string example(const unsigned int n_components)
+  {
+    std::string text = "'x^2 + 2*y^2 - 0.25*cos(2*pi*t)";
+    for (unsigned int i = 1; i < n_components; ++i)
+      text += "; 0.5*y";
+    const std::string variables = dim == 2 ? "x, y and t" : "x, y, z and t";
+    return " Write an expression in " + variables + ", for example " + text + "'.";
+  }
+} // namespace
+
+template <int dim>
+std::unique_ptr<dealii::Function<dim>>
+make_function(const std::string &expression, const unsigned int n_components, const std::string &where)
+{
+  const auto fail = [&](const std::string &reason)
+  {
+    throw ParameterError(where, "the expression '" + expression + "' " + reason + example<dim>(n_components));
+  };
+
+  // Not split_string_list(), which swallows an empty component at the end.
+  const unsigned int n_given = 1 + std::count(expression.begin(), expression.end(), ';');
+  if (n_given != n_components)
+    fail("has " + std::to_string(n_given) + (n_given == 1 ? " component" : " components") + " instead of " +
+         std::to_string(n_components) + "; components are separated by semicolons.");
+  std::istringstream components(expression + ";");
+  for (std::string component; std::getline(components, component, ';');)
+    if (dealii::Utilities::trim(component).empty())
+      fail("has an empty component.");
+  // Each process would draw numbers of its own, and the fields would not fit together.
+  if (expression.find("rand") != std::string::npos)
+    fail("uses random numbers, which differ from process to process and from run to run; use sines and "
+         "cosines.");
+
+  auto function = std::make_unique<dealii::FunctionParser<dim>>(n_components);
+  try
+  {
+    const SilencedErrorStream silence;
+    const std::string variables = dealii::FunctionParser<dim>::default_variable_names() + ",t";
+    function->initialize(variables, expression, {{"pi", dealii::numbers::PI}}, true);
+    // The parser looks at the text only when it is first evaluated.
+    for (unsigned int i = 0; i < n_components; ++i)
+      function->value(dealii::Point<dim>(), i);
+  }
+  catch (const dealii::ExceptionBase &error)
+  {
+    fail("cannot be understood: " + complaint(error));
+  }
+  return function;
+}
+
+template <int dim>
+void check_finite(const dealii::Function<dim> &function, const std::vector<dealii::Point<dim>> &points,
+                  const std::string &where)
+{
+  for (const dealii::Point<dim> &point : points)
+    for (unsigned int i = 0; i < function.n_components; ++i)
+    {
+      const double value = function.value(point, i);
+      if (std::isfinite(value))
+        continue;
+      std::string coordinates;
+      for (unsigned int d = 0; d < dim; ++d)
+        coordinates += (d == 0 ? "" : ", ") + Parameters::to_text(point[d]);
+      throw ParameterError(where,
+                           "the expression has the value " + Parameters::to_text(value) + " at (" +
+                               coordinates + "), t = " + Parameters::to_text(function.get_time()) +
+                               ". It has to be a finite number there; look for divisions by zero and for "
+                               "roots or logarithms of negative numbers.");
+    }
+}
+
+#define INSTANTIATE(dim)                                                                                     \
+  template std::unique_ptr<dealii::Function<dim>> make_function<dim>(const std::string &, unsigned int,      \
+                                                                     const std::string &);                   \
+  template void check_finite<dim>(const dealii::Function<dim> &, const std::vector<dealii::Point<dim>> &,    \
+                                  const std::string &);
+INSTANTIATE(2)
+INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace Gemmule

@@ -1,0 +1,258 @@
+#include <gemmule/parameters/errors.h>
+#include <gemmule/parameters/strict_parser.h>
+#include <gemmule/parameters/suggestion.h>
+
+#include <deal.II/base/parameter_handler.h>
+#include <deal.II/base/utilities.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+namespace Gemmule::Parameters
+{
+namespace
+{
+  /** Removes blanks at both ends and makes each run of blanks in between one space. */
+  std::string normalise(const std::string &text)
+  {
+    std::istringstream stream(text);
+    std::string result;
+    for (std::string word; stream >> word;)
+      result += (result.empty() ? "" : " ") + word;
+    return result;
+  }
+
+  std::string list(const std::vector<std::string> &names)
+  {
+    std::string result;
+    for (const std::string &name : names)
+      result += (result.empty() ? "'" : ", '") + name + "'";
+    return result;
+  }
+
+  std::string in_section(const std::string &section)
+  {
+    return section.empty() ? "at the top level" : "in section '" + section + "'";
+  }
+
+  /** If the line starts with the keyword (all small or all capital letters), the rest of the line. */
+  bool starts_with(const std::string &line, const std::string &keyword, std::string &rest)
+  {
+    const std::string word = line.substr(0, line.find_first_of(" \t"));
+    std::string capitals = keyword;
+    std::transform(capitals.begin(), capitals.end(), capitals.begin(),
+                   [](unsigned char c) { return std::toupper(c); });
+    if (word != keyword && word != capitals)
+      return false;
+    rest = normalise(line.substr(word.size()));
+    return true;
+  }
+} // namespace
+
+StrictParser::StrictParser(dealii::ParameterHandler &prm) : prm(prm), schema(prm) {}
+
+void StrictParser::parse_file(const std::string &file)
+{
+  std::error_code ignored;
+  if (!std::filesystem::exists(file, ignored))
+    throw UserError("the parameter file '" + file +
+                    "' does not exist. Check the path; 'gemmule --print-parameters' "
+                    "prints a file to start from.");
+  if (std::filesystem::is_directory(file, ignored))
+    throw UserError("'" + file + "' is a directory. Give the parameter file (*.prm) itself.");
+  std::ifstream stream(file);
+  if (!stream)
+    throw UserError("the parameter file '" + file + "' cannot be read. Check its permissions.");
+
+  std::string logical_line;
+  unsigned int line_number = 0, first_line_number = 1;
+  for (std::string line; std::getline(stream, line);)
+  {
+    ++line_number;
+    if (line_number == 1 && line.compare(0, 3, "\xEF\xBB\xBF") == 0)
+      line.erase(0, 3);
+    if (logical_line.empty())
+      first_line_number = line_number;
+    line = dealii::Utilities::trim(line.substr(0, line.find('#')));
+    if (!line.empty() && line.back() == '\\')
+    {
+      logical_line += line.substr(0, line.size() - 1) + " ";
+      continue;
+    }
+    parse_line(dealii::Utilities::trim(logical_line + line), file + ":" + std::to_string(first_line_number));
+    logical_line.clear();
+  }
+  if (stream.bad())
+    throw UserError("reading the parameter file '" + file + "' failed after line " +
+                    std::to_string(line_number) + ".");
+  if (!logical_line.empty())
+    throw UserError(file + ":" + std::to_string(line_number) +
+                    ": the file ends with a backslash, which announces another line. Remove it.");
+  if (!open_sections.empty())
+    throw UserError(open_sections.back().place + ": the section '" + open_sections.back().path +
+                    "' that starts here has no 'end'. Add a line 'end' after its last parameter.");
+}
+
+void StrictParser::parse_line(const std::string &line, const std::string &place)
+{
+  const std::string section = open_sections.empty() ? "" : open_sections.back().path;
+  std::string rest;
+  if (line.empty())
+    return;
+  if (starts_with(line, "subsection", rest))
+    enter(rest, place);
+  else if (starts_with(line, "end", rest))
+  {
+    if (!rest.empty())
+      throw UserError(place + ": nothing may follow 'end', but there is '" + rest + "'.");
+    if (open_sections.empty())
+      throw UserError(place +
+                      ": this 'end' closes no section. Remove it, or look for a missing 'subsection' above.");
+    open_sections.pop_back();
+  }
+  else if (starts_with(line, "set", rest))
+  {
+    const std::string::size_type equals = line.find('=');
+    if (equals == std::string::npos)
+      throw UserError(place + ": '" + line + "' has no '='. Write 'set Name = value'.");
+    const std::string key = normalise(line.substr(3, equals - 3));
+    if (key.empty())
+      throw UserError(place + ": '" + line + "' names no parameter. Write 'set Name = value'.");
+    assign(section, key, dealii::Utilities::trim(line.substr(equals + 1)), place, set_in_file);
+  }
+  else if (starts_with(line, "include", rest))
+    throw UserError(place +
+                    ": 'include' is not supported. Copy the lines, or use --set on the command line.");
+  else
+  {
+    std::string remedy = "Lines are 'subsection NAME', 'set Name = value', 'end', or comments after '#'.";
+    const std::string key = normalise(line.substr(0, line.find('=')));
+    if (line.find('=') != std::string::npos && !nearest(key, schema.keys(section)).empty())
+      remedy = "Is 'set' missing in front of it?";
+    throw UserError(place + ": the line '" + line + "' cannot be understood. " + remedy);
+  }
+}
+
+void StrictParser::parse_override(const std::string &assignment)
+{
+  const std::string place = "command line";
+  const std::string::size_type equals = assignment.find('=');
+  if (equals == std::string::npos)
+    throw UserError(place + ": --set '" + assignment +
+                    "' has no '='. Write --set \"Section/Name=value\", for example --set \"Fluid/Capillary "
+                    "number=0.5\".");
+
+  std::string section;
+  const auto [sections, key] = Schema::split(assignment.substr(0, equals));
+  std::istringstream stream(sections);
+  for (std::string name; std::getline(stream, name, '/');)
+  {
+    name = normalise(name);
+    if (!schema.has_section(Schema::join(section, name)))
+      unknown_section(section, name, place);
+    section = Schema::join(section, name);
+  }
+  assign(section, normalise(key), dealii::Utilities::trim(assignment.substr(equals + 1)), place,
+         set_on_command_line);
+}
+
+std::string StrictParser::place_of(const std::string &parameter) const
+{
+  for (const auto *places : {&set_on_command_line, &set_in_file})
+    if (const auto place = places->find(parameter); place != places->end())
+      return place->second;
+  return "";
+}
+
+void StrictParser::enter(const std::string &name, const std::string &place)
+{
+  const std::string section = open_sections.empty() ? "" : open_sections.back().path;
+  if (!schema.has_section(Schema::join(section, name)))
+    unknown_section(section, name, place);
+  open_sections.push_back({Schema::join(section, name), place});
+}
+
+void StrictParser::assign(const std::string &section, const std::string &key, const std::string &value,
+                          const std::string &place, std::map<std::string, std::string> &already_set)
+{
+  const std::string path = Schema::join(section, key);
+  const auto entry = schema.entries().find(path);
+  if (entry == schema.entries().end())
+    unknown_key(section, key, place);
+  if (const auto earlier = already_set.find(path); earlier != already_set.end())
+    throw UserError(place + ": the parameter '" + path + "' is given twice, first at " + earlier->second +
+                    ". Remove one of them.");
+
+  unsigned int depth = 0;
+  std::istringstream stream(section);
+  for (std::string name; std::getline(stream, name, '/'); ++depth)
+    prm.enter_subsection(name);
+  bool allowed = true;
+  try
+  {
+    prm.set(key, value);
+  }
+  catch (const dealii::ParameterHandler::ExcValueDoesNotMatchPattern &)
+  {
+    allowed = false;
+  }
+  for (; depth > 0; --depth)
+    prm.leave_subsection();
+  if (!allowed)
+    throw UserError(place + ": the value '" + value + "' of the parameter '" + path +
+                    "' is not allowed; expected " + entry->second.allowed + ".");
+  already_set[path] = place;
+}
+
+void StrictParser::unknown_key(const std::string &section, const std::string &key,
+                               const std::string &place) const
+{
+  std::string remedy;
+  const std::vector<std::string> keys = schema.keys(section);
+  const std::string similar = nearest(key, keys);
+  const std::vector<std::string> holders = schema.holders_of_key(key);
+  if (!similar.empty())
+    remedy = "Did you mean '" + similar + "' (" +
+             schema.entries().at(Schema::join(section, similar)).allowed + ")?";
+  else if (!holders.empty())
+    remedy = "There is one " + in_section(holders.front()) + "; is a 'subsection' or an 'end' missing?";
+  else if (schema.has_section(Schema::join(section, key)))
+    remedy = "This is the name of a section.";
+  else
+  {
+    // A typo in a parameter that belongs elsewhere.
+    std::vector<std::string> all_keys;
+    for (const auto &[path, entry] : schema.entries())
+      all_keys.push_back(Schema::split(path).second);
+    const std::string elsewhere = nearest(key, all_keys);
+    if (!elsewhere.empty())
+      remedy =
+          "Did you mean '" + elsewhere + "' " + in_section(schema.holders_of_key(elsewhere).front()) + "?";
+    else
+      remedy = keys.empty() ? "There are only sections here: " + list(schema.subsections(section)) + "."
+                            : "The parameters here are " + list(keys) + ".";
+  }
+  throw UserError(place + ": there is no parameter '" + key + "' " + in_section(section) + ". " + remedy);
+}
+
+void StrictParser::unknown_section(const std::string &section, const std::string &name,
+                                   const std::string &place) const
+{
+  std::string remedy;
+  const std::vector<std::string> sections = schema.subsections(section);
+  const std::string similar = nearest(name, sections);
+  const std::vector<std::string> holders = schema.holders_of_section(name);
+  if (!similar.empty())
+    remedy = "Did you mean '" + similar + "'?";
+  else if (!holders.empty() && !open_sections.empty())
+    remedy = "There is one " + in_section(holders.front()) +
+             "; is an 'end' missing for the section that starts at " + open_sections.back().place + "?";
+  else if (!holders.empty())
+    remedy = "There is one " + in_section(holders.front()) + ".";
+  else
+    remedy =
+        sections.empty() ? "There are no sections here." : "The sections here are " + list(sections) + ".";
+  throw UserError(place + ": there is no section '" + name + "' " + in_section(section) + ". " + remedy);
+}
+} // namespace Gemmule::Parameters

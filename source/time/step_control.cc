@@ -1,0 +1,83 @@
+#include <gemmule/parameters/errors.h>
+#include <gemmule/time/step_control.h>
+
+#include <deal.II/base/exceptions.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace Gemmule
+{
+namespace
+{
+  // Times closer than this, relative to the step, are the same: round-off of sums of steps.
+  constexpr double same = 1e-9;
+  constexpr double safety = 0.9;
+  constexpr double order_of_local_error = 3.;
+} // namespace
+
+StepControl::StepControl(const Parameters::TimeStepping &parameters, const double start_time,
+                         std::vector<double> stops_)
+  : parameters(parameters), now(start_time), stops(std::move(stops_)), wanted(parameters.initial_step)
+{
+  Assert(!stops.empty(), dealii::ExcMessage("There must be an end."));
+  std::sort(stops.begin(), stops.end());
+}
+
+double StepControl::propose(const double stability_limit)
+{
+  double step = std::min(wanted, parameters.largest_step);
+  if (parameters.adaptive)
+    step = std::min(step, stability_limit);
+  const auto next = std::upper_bound(stops.begin(), stops.end(), now + same * step);
+  const double left = (next == stops.end() ? stops.back() : *next) - now;
+  if (step >= left * (1. - same))
+    step = left;
+  else if (step > 0.5 * left)
+    step = 0.5 * left;
+  proposed = step;
+  return step;
+}
+
+void StepControl::shrink(const double factor, const std::string &reason)
+{
+  if (proposed <= parameters.smallest_step * (1. + same))
+  {
+    std::ostringstream message;
+    message << "The time step at t = " << now << " would have to be smaller than 'Smallest time step' = "
+            << parameters.smallest_step << ": " << reason
+            << " Refine the mesh, or loosen 'Time stepping/Tolerance'.";
+    throw SimulationError(message.str());
+  }
+  wanted = std::max(factor * proposed, parameters.smallest_step);
+}
+
+bool StepControl::judge(const double error)
+{
+  const double ideal = safety * std::pow(std::max(error, 1e-10), -1. / order_of_local_error);
+  if (parameters.adaptive && error > 1.)
+  {
+    std::ostringstream reason;
+    reason << "the estimated local error is " << error << " times the tolerance.";
+    shrink(std::clamp(ideal, 0.2, 0.9), reason.str());
+    return false;
+  }
+  const auto next = std::upper_bound(stops.begin(), stops.end(), now + same * proposed);
+  now += proposed;
+  // exactly on the stop, so that round-off does not add up
+  if (next != stops.end() && std::abs(*next - now) < same * proposed)
+    now = *next;
+  if (parameters.adaptive)
+    wanted = std::min(std::max(proposed * std::min(ideal, parameters.largest_growth),
+                               // a step cut short by a stop says little about what is possible
+                               ideal >= 1. ? std::min(wanted, proposed * ideal) : 0.),
+                      parameters.largest_step);
+  return true;
+}
+
+void StepControl::fail(const std::string &reason)
+{
+  shrink(0.5, reason);
+}
+} // namespace Gemmule

@@ -1,0 +1,190 @@
+// What the flow keeps for any position of the membrane: robustness, energy, volume, arclength penalty, ranks.
+#include <gtest/gtest.h>
+#include <iostream>
+
+#include "support/circle_flow.h"
+#include "support/flow_on_circle.h"
+
+using namespace dealii;
+using namespace Gemmule;
+using namespace Gemmule::Testing;
+
+namespace
+{
+double stretching_tension(const Point<2> &p)
+{
+  return 1. + 0.5 * std::cos(2. * std::atan2(p[1], p[0]));
+}
+} // namespace
+
+TEST(StokesInvariants, ErrorIsFlatOverSliverCuts)
+{
+  // The circle slides from tangency with a grid line (at 0.5 in x and y) through ever thicker slivers, over
+  // one cell.
+  const double h = 1. / 16.;
+  double smallest = 1e300, largest = 0.;
+  for (unsigned int i = 0; i < 20; ++i)
+  {
+    const double shift = i < 10 ? h * std::pow(10., -0.7 * (i + 1.)) : h * (i - 9.) / 10.;
+    const Point<2> center(0.05 + shift, 0.05 - 0.3 * shift);
+    const CircleFlow exact(center, FlowOnCircle<2>::radius, 2, 0.5, 10.);
+    FlowOnCircle<2> flow(5, center, 10.);
+    flow.set_tension([&](const Point<2> &p) { return exact.tension(p); });
+    flow.solve(exact);
+    const double error = flow.error([&](const Point<2> &p) { return exact.velocity(p); });
+    smallest = std::min(smallest, error);
+    largest = std::max(largest, error);
+  }
+  std::cout << "error over 20 cuts between " << smallest << " and " << largest << std::endl;
+  EXPECT_LT(largest, 2e-4);
+  EXPECT_LT(largest, 2.5 * smallest);
+}
+
+TEST(ParallelStokesInvariants, DissipationIsTheWorkOfTheMembrane)
+{
+  for (const double capillary_number : {1., 0.2})
+    for (const double ratio : {0.1, 10.})
+    {
+      FlowOnCircle<2> flow(5, Point<2>(0.013, 0.007), ratio, {}, capillary_number);
+      flow.set_tension(stretching_tension);
+      flow.solve(Functions::ZeroFunction<2>(2));
+      const double work = flow.solver.membrane_work();
+      EXPECT_GT(work, 0.);
+      EXPECT_NEAR(flow.solver.viscous_dissipation(), work, 2e-3 * work);
+      EXPECT_NEAR(flow.solver.net_flux(), 0., 1e-8 / capillary_number);
+    }
+}
+
+TEST(ParallelStokesInvariants, ArclengthPenaltyActsAtTheEndOfTheStep)
+{
+  // A tension that contracts an ellipse-like force field: the penalty must find s = Lambda (L - L0 + dt
+  // dL/dt).
+  const double dt = 0.01, excess = 2e-3;
+  FlowOnCircle<2> flow(5, Point<2>(0.013, 0.007));
+  flow.set_tension(stretching_tension);
+  flow.mesh.interpolate(Functions::SignedDistance::Ellipsoid<2>(flow.center, {{0.5, 0.35}}));
+  flow.geometry.reinit(flow.mesh.dof_handler, flow.mesh.level_set);
+  flow.set_tension(stretching_tension);
+  flow.solver.prepare(flow.geometry, Functions::ZeroFunction<2>(2));
+
+  flow.solver.solve(flow.tension);
+  const double free_rate = flow.solver.arclength_rate();
+  EXPECT_EQ(flow.solver.constraint_tension(), 0.);
+  EXPECT_LT(free_rate, -1e-2);
+
+  for (const double stiffness : {0., 1., 100., 1e4, 1e6})
+  {
+    const ArclengthPenalty penalty{stiffness, excess, dt};
+    flow.solver.solve(flow.tension, &penalty);
+    const double rate = flow.solver.arclength_rate(), s = flow.solver.constraint_tension();
+    // s = Lambda (L - L0 + dt rate): the bracket is a small difference for large Lambda, known to round-off
+    // only.
+    EXPECT_NEAR(s, stiffness * (excess + dt * rate), 1e-9 * std::abs(s) + stiffness * 1e-14);
+    if (stiffness == 0.)
+      EXPECT_NEAR(rate, free_rate, 1e-13);
+    if (stiffness >= 1e6)
+      EXPECT_NEAR(rate, -excess / dt, 1e-5 * excess / dt);
+
+    // The same flow from the total tension given explicitly.
+    const MembraneScalar given = flow.tension;
+    const double work = flow.solver.membrane_work();
+    for (auto &cell : flow.tension)
+      for (auto &sigma : cell)
+        sigma += s;
+    flow.solver.solve(flow.tension);
+    EXPECT_NEAR(flow.solver.arclength_rate(), rate, 1e-10);
+    EXPECT_NEAR(flow.solver.membrane_work(), work, 1e-10 * (1. + std::abs(s)));
+    EXPECT_NEAR(flow.solver.viscous_dissipation(), work, 5e-3 * work);
+    flow.tension = given;
+  }
+}
+
+TEST(ParallelStokesInvariants, ImposedFlowLosesItsNetFlux)
+{
+  // Divergence-free, but not in Q2: the interpolant has a net flux, which is removed.
+  class Swirl : public Function<2>
+  {
+  public:
+    Swirl() : Function<2>(2) {}
+    double value(const Point<2> &p, const unsigned int c) const override
+    {
+      // curl of exp(x y + 0.3 x)
+      const double e = std::exp(p[0] * p[1] + 0.3 * p[0]);
+      return c == 0 ? p[0] * e : -(p[1] + 0.3) * e;
+    }
+  };
+  FlowOnCircle<2> flow(4, Point<2>(0.013, 0.007));
+  flow.set_tension([](const Point<2> &) { return 0.; });
+  flow.solve(Swirl());
+  EXPECT_GT(std::abs(flow.solver.removed_boundary_flux()), 1e-9);
+  EXPECT_LT(std::abs(flow.solver.removed_boundary_flux()), 1e-3);
+  EXPECT_NEAR(flow.solver.net_flux(), 0., 1e-6);
+
+  class Source : public Function<2>
+  {
+  public:
+    Source() : Function<2>(2) {}
+    double value(const Point<2> &p, const unsigned int c) const override { return p[c]; }
+  };
+  EXPECT_THROW(flow.solve(Source()), ExceptionBase);
+}
+
+TEST(ParallelStokesInvariants, RigidRotationAndLinearFlowAreExact)
+{
+  // Without tension and with equal viscosities the discrete space holds these flows; hanging nodes must not
+  // disturb them.
+  class Shear : public Function<2>
+  {
+  public:
+    Shear() : Function<2>(2) {}
+    double value(const Point<2> &p, const unsigned int c) const override
+    {
+      return c == 0 ? 0.3 + 0.7 * p[1] - 0.2 * p[0] : 0.2 * p[1] - 0.1 * p[0] + 0.05;
+    }
+  } shear;
+  FlowOnCircle<2> flow(4, Point<2>(0.013, 0.007), 1.,
+                       [](const Point<2> &p) { return p[0] + 0.4 * p[1] > 0.05; });
+  flow.set_tension([](const Point<2> &) { return 0.; });
+  flow.solve(shear);
+  const double error = flow.error(
+      [&](const Point<2> &p)
+      {
+        Tensor<1, 2> u;
+        u[0] = shear.value(p, 0);
+        u[1] = shear.value(p, 1);
+        return u;
+      });
+  EXPECT_LT(error, 1e-10);
+}
+
+TEST(ParallelStokesInvariants, MembraneAtTheWallIsRefused)
+{
+  FlowOnCircle<2> flow(4, Point<2>(0.5, 0.));
+  flow.set_tension([](const Point<2> &) { return 1.; });
+  EXPECT_THROW(flow.solve(Functions::ZeroFunction<2>(2)), ExceptionBase);
+}
+
+TEST(ParallelStokesInvariants, SameResultOnAnyNumberOfRanks)
+{
+  // Reference figures of one rank, with hanging nodes on cut cells.
+  FlowOnCircle<2> flow(4, Point<2>(0.013, 0.007), 10.,
+                       [](const Point<2> &p) { return std::abs(p[0] - p[1]) < 0.4 && p.norm() < 0.8; });
+  flow.set_tension(stretching_tension);
+  flow.solve(Functions::ZeroFunction<2>(2));
+  std::cout.precision(15);
+  std::cout << flow.solver.n_unknowns() << " unknowns, dL/dt " << flow.solver.arclength_rate() << ", max |u| "
+            << flow.solver.max_velocity() << std::endl;
+  EXPECT_EQ(flow.solver.n_unknowns(), 0u);
+  EXPECT_NEAR(flow.solver.arclength_rate(), 0., 1e-11);
+  EXPECT_NEAR(flow.solver.max_velocity(), 0., 1e-11);
+}
+
+TEST(StokesInvariants, StaticSphere)
+{
+  FlowOnCircle<3> flow(3, Point<3>(0.013, 0.007, -0.004));
+  flow.set_tension([](const Point<3> &) { return 1.; });
+  flow.solve(Functions::ZeroFunction<3>(3));
+  std::cout << flow.solver.n_unknowns() << " unknowns, max |u| " << flow.solver.max_velocity() << std::endl;
+  EXPECT_LT(flow.solver.max_velocity(), 5e-3);
+  EXPECT_NEAR(flow.solver.net_flux(), 0., 1e-4);
+}

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace Gemmule::Testing
+{
+/** A directory that vanishes with the object. */
+class TemporaryDirectory
+{
+public:
+  TemporaryDirectory()
+  {
+    std::string pattern = (std::filesystem::temp_directory_path() / "gemmule-XXXXXX").string();
+    if (mkdtemp(pattern.data()) == nullptr)
+      throw std::runtime_error("cannot create a temporary directory");
+    path = pattern;
+  }
+  ~TemporaryDirectory()
+  {
+    std::error_code ignored;
+    std::filesystem::remove_all(path, ignored);
+  }
+  TemporaryDirectory(const TemporaryDirectory &) = delete;
+  TemporaryDirectory &operator=(const TemporaryDirectory &) = delete;
+
+  std::string file(const std::string &name) const { return (path / name).string(); }
+  /** Writes a file and returns its path. */
+  std::string write(const std::string &name, const std::string &text) const
+  {
+    std::ofstream(path / name) << text;
+    return file(name);
+  }
+  std::string read(const std::string &name) const
+  {
+    std::ifstream stream(path / name);
+    std::ostringstream text;
+    text << stream.rdbuf();
+    return text.str();
+  }
+
+  std::filesystem::path path;
+};
+
+struct Result
+{
+  int exit_code;
+  std::string out, err;
+};
+
+/**
+ * Runs the executable in @p directory with arguments in shell syntax, on one process or under mpirun. The
+ * environment is a clean one: that of an MPI program, as the tests are, would confuse another.
+ */
+inline Result run_gemmule(const TemporaryDirectory &directory, const std::string &arguments,
+                          const unsigned int n_processes = 1)
+{
+  const std::string launcher =
+      n_processes == 1 ? "" : "mpirun --oversubscribe -n " + std::to_string(n_processes) + " ";
+  const std::string command = "cd '" + directory.path.string() +
+                              "' && env -i PATH=\"$PATH\" HOME=\"$HOME\" OMPI_ALLOW_RUN_AS_ROOT=1 "
+                              "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMP_NUM_THREADS=1 DEAL_II_NUM_THREADS=1 " +
+                              launcher + GEMMULE_EXECUTABLE + " " + arguments + " > .stdout 2> .stderr";
+  const int status = std::system(command.c_str());
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : 128, directory.read(".stdout"),
+          directory.read(".stderr")};
+}
+} // namespace Gemmule::Testing

@@ -1,0 +1,218 @@
+// What goes to HDF5 and XDMF is read back, as a user's script, a resumed run or ParaView would.
+#include <gemmule/output/field_output.h>
+#include <gemmule/output/hdf5_file.h>
+#include <gemmule/output/interface_output.h>
+#include <gemmule/parameters/errors.h>
+#include <gemmule/version.h>
+
+#include <deal.II/base/function_lib.h>
+#include <deal.II/base/numbers.h>
+#include <deal.II/distributed/tria.h>
+#include <deal.II/dofs/dof_handler.h>
+#include <deal.II/fe/fe_q.h>
+#include <deal.II/grid/grid_generator.h>
+#include <deal.II/lac/vector.h>
+#include <deal.II/numerics/data_out.h>
+#include <deal.II/numerics/vector_tools_interpolate.h>
+
+#include <cmath>
+
+#include "support/output_test.h"
+
+using namespace Gemmule;
+
+namespace
+{
+/** Points on a circle of radius @p radius with equal weights, f = 1 + cos(angle). */
+InterfaceSamples<2> circle(const double time, const double radius, const unsigned int n = 64)
+{
+  InterfaceSamples<2> samples;
+  samples.time = time;
+  for (unsigned int i = 0; i < n; ++i)
+  {
+    const double angle = 2. * dealii::numbers::PI * i / n;
+    const dealii::Tensor<1, 2> normal({std::cos(angle), std::sin(angle)});
+    samples.points.emplace_back(radius * normal);
+    samples.normal.push_back(normal);
+    samples.velocity.emplace_back(dealii::Tensor<1, 2>({-normal[1], 3. * normal[0]}));
+    samples.f.push_back(1. + normal[0]);
+    samples.f_total.push_back(2.);
+    samples.composition.push_back(0.5 * (1. + normal[0]));
+    samples.tension.push_back(0.25 * i);
+    samples.chemical_potential.push_back(-0.5 * i);
+    samples.curvature.push_back(1. / radius);
+    samples.weights.push_back(2. * dealii::numbers::PI * radius / n);
+    samples.connectivity.push_back({{i, (i + 1) % n}});
+  }
+  return samples;
+}
+
+} // namespace
+
+TEST_F(OutputTest, InterfaceIsReadBack)
+{
+  InterfaceWriter<2> writer(directory, MPI_COMM_SELF, "gemmule case.prm");
+  writer.write(circle(0., 0.5));
+  writer.write(circle(0.25, 0.4, 32));
+
+  const Hdf5File file(path("interface.h5"), Hdf5File::Mode::read);
+  EXPECT_EQ(file.members(), (std::vector<std::string>{"step_00000", "step_00001"}));
+  EXPECT_EQ(file.number_attribute("/", "schema_version"), 1.);
+  EXPECT_EQ(file.text_attribute("/", "gemmule_version"), GEMMULE_VERSION);
+  EXPECT_EQ(file.text_attribute("/", "git_revision"), GEMMULE_GIT_REVISION);
+  EXPECT_EQ(file.text_attribute("/", "command_line"), "gemmule case.prm");
+  EXPECT_EQ(file.number_attribute("step_00000", "time"), 0.);
+  EXPECT_EQ(file.number_attribute("step_00001", "time"), 0.25);
+
+  EXPECT_EQ(file.extent("step_00000/points"), (std::vector<std::size_t>{64, 2}));
+  EXPECT_EQ(file.extent("step_00001/connectivity"), (std::vector<std::size_t>{32, 2}));
+  EXPECT_EQ(file.extent("step_00001/f"), (std::vector<std::size_t>{32}));
+
+  double arclength = 0., mass_f = 0., mass_total = 0.;
+  const std::vector<double> weights = file.read("step_00000/weights");
+  const std::vector<double> f = file.read("step_00000/f");
+  const std::vector<double> f_total = file.read("step_00000/f_total");
+  for (unsigned int i = 0; i < weights.size(); ++i)
+  {
+    arclength += weights[i];
+    mass_f += weights[i] * f[i];
+    mass_total += weights[i] * f_total[i];
+  }
+  EXPECT_NEAR(arclength, dealii::numbers::PI, 1e-14);
+  EXPECT_NEAR(mass_f, dealii::numbers::PI, 1e-14);
+  EXPECT_NEAR(mass_total, 2. * dealii::numbers::PI, 1e-14);
+
+  const InterfaceSamples<2> second = circle(0.25, 0.4, 32);
+  const std::vector<double> velocity = file.read("step_00001/velocity");
+  const std::vector<double> normal = file.read("step_00001/normal");
+  EXPECT_EQ(velocity[2 * 5 + 1], second.velocity[5][1]);
+  EXPECT_EQ(normal[2 * 5], second.normal[5][0]);
+  EXPECT_EQ(file.read("step_00001/points")[2 * 31 + 1], second.points[31][1]);
+  EXPECT_EQ(file.read("step_00001/connectivity")[2 * 31 + 1], 0.);
+  EXPECT_EQ(file.read("step_00001/tension"), second.tension);
+  EXPECT_EQ(file.read("step_00001/chemical_potential"), second.chemical_potential);
+  EXPECT_EQ(file.read("step_00001/composition"), second.composition);
+  EXPECT_EQ(file.read("step_00001/curvature"), second.curvature);
+}
+
+TEST_F(OutputTest, InterfaceXdmfListsEveryTimeAndField)
+{
+  InterfaceWriter<2> writer(directory, MPI_COMM_SELF, "");
+  writer.write(circle(0., 0.5));
+  writer.write(circle(0.25, 0.4));
+  const std::string text = content("interface.xdmf");
+  for (const char *part :
+       {"Time Value=\"0\"", "Time Value=\"0.25\"", "TopologyType=\"Polyline\"", "Name=\"composition\"",
+        "Name=\"tension\"", "Name=\"velocity\"", "interface.h5:/step_00001/connectivity"})
+    EXPECT_NE(text.find(part), std::string::npos) << part;
+}
+
+TEST_F(OutputTest, InterfaceOfAResumedRunIsCutOff)
+{
+  {
+    InterfaceWriter<2> writer(directory, MPI_COMM_SELF, "first");
+    for (const double time : {0., 0.1, 0.2, 0.3})
+      writer.write(circle(time, 0.5));
+    Hdf5File file(path("interface.h5"), Hdf5File::Mode::modify);
+    file.create_group("step_00004"); // what a kill leaves
+  }
+  InterfaceWriter<2> resumed(directory, MPI_COMM_SELF, "second", 0.1);
+  EXPECT_EQ(content("interface.xdmf").find("step_00002"), std::string::npos);
+  resumed.write(circle(0.15, 0.3));
+
+  const Hdf5File file(path("interface.h5"), Hdf5File::Mode::read);
+  EXPECT_EQ(file.members(), (std::vector<std::string>{"step_00000", "step_00001", "step_00002"}));
+  EXPECT_EQ(file.number_attribute("step_00002", "time"), 0.15);
+  EXPECT_EQ(file.text_attribute("/", "command_line"), "first");
+  EXPECT_NE(content("interface.xdmf").find("step_00002"), std::string::npos);
+}
+
+TEST_F(OutputTest, InterfaceOnAFullDiskFailsReadably)
+{
+  InterfaceWriter<2> writer(directory, MPI_COMM_SELF, "");
+  writer.write(circle(0., 0.5));
+  const std::string message = message_of(
+      [&]()
+      {
+        const FullDisk full_disk(std::filesystem::file_size(path("interface.h5")) + 4096);
+        writer.write(circle(0.1, 0.5, 5000));
+      });
+  EXPECT_NE(message.find("interface.h5"), std::string::npos) << message;
+  EXPECT_NE(message.find("disk full"), std::string::npos) << message;
+
+  // The file is unharmed, and the run goes on when there is room again.
+  EXPECT_EQ(Hdf5File(path("interface.h5"), Hdf5File::Mode::read).members().size(), 1u);
+  writer.write(circle(0.1, 0.5, 5000));
+  EXPECT_EQ(Hdf5File(path("interface.h5"), Hdf5File::Mode::read).members().size(), 2u);
+}
+
+TEST_F(OutputTest, InterfaceOfADamagedFileFailsReadably)
+{
+  std::ofstream(path("interface.h5")) << "This is no HDF5 file.";
+  const std::string message = message_of([&]() { InterfaceWriter<2>(directory, MPI_COMM_SELF, "", 1.); });
+  EXPECT_NE(message.find("interface.h5"), std::string::npos) << message;
+  EXPECT_NE(message.find("damaged"), std::string::npos) << message;
+}
+
+TEST_F(ParallelOutputTest, FieldsAreReadBackAndResumed)
+{
+  dealii::parallel::distributed::Triangulation<2> triangulation(MPI_COMM_WORLD);
+  dealii::GridGenerator::hyper_cube(triangulation, -1., 1.);
+  triangulation.refine_global(3);
+  const dealii::FE_Q<2> element(1);
+  dealii::DoFHandler<2> dof_handler(triangulation);
+  dof_handler.distribute_dofs(element);
+  dealii::Vector<double> values(dof_handler.n_dofs());
+  dealii::VectorTools::interpolate(dof_handler,
+                                   dealii::Functions::Monomial<2>(dealii::Tensor<1, 2>({1., 0.})), values);
+  dealii::DataOut<2> data;
+  data.attach_dof_handler(dof_handler);
+  data.add_data_vector(values, "level_set");
+  data.build_patches();
+  {
+    FieldWriter<2> writer(directory, MPI_COMM_WORLD);
+    for (const double time : {0., 0.5, 1.})
+      writer.write(data, time);
+  }
+  on_rank_zero(MPI_COMM_WORLD,
+               [&]()
+               {
+                 const Hdf5File file(path("solution-00001.h5"), Hdf5File::Mode::read);
+                 EXPECT_EQ(file.number_attribute("/", "time"), 0.5);
+                 EXPECT_EQ(file.extent("cells"), (std::vector<std::size_t>{64, 4}));
+                 const std::vector<double> nodes = file.read("nodes");
+                 const std::vector<double> level_set = file.read("level_set");
+                 ASSERT_EQ(nodes.size(), 2 * 4 * 64u);
+                 for (unsigned int i = 0; i < level_set.size(); ++i)
+                   EXPECT_NEAR(level_set[i], nodes[2 * i], 1e-15);
+               });
+
+  const std::string complete = content("solution.xdmf");
+  FieldWriter<2> resumed(directory, MPI_COMM_WORLD, 0.5);
+  EXPECT_EQ(std::filesystem::exists(path("solution-00001.h5")), true);
+  EXPECT_EQ(std::filesystem::exists(path("solution-00002.h5")), false);
+  resumed.write(data, 1.);
+  // The entries of the earlier files were read from them, and must be what was said when they were written.
+  EXPECT_EQ(content("solution.xdmf"), complete);
+  EXPECT_NE(complete.find("solution-00002.h5:/level_set"), std::string::npos);
+}
+
+TEST_F(ParallelOutputTest, FieldsThatCannotBeWrittenFailOnAllRanks)
+{
+  dealii::parallel::distributed::Triangulation<2> triangulation(MPI_COMM_WORLD);
+  dealii::GridGenerator::hyper_cube(triangulation, -1., 1.);
+  triangulation.refine_global(2);
+  dealii::DataOut<2> data;
+  data.attach_triangulation(triangulation);
+  dealii::Vector<float> values(triangulation.n_active_cells());
+  data.add_data_vector(values, "level", dealii::DataOut<2>::type_cell_data);
+  data.build_patches();
+  FieldWriter<2> writer(path("missing"), MPI_COMM_WORLD);
+  const std::string message = message_of([&]() { writer.write(data, 0.); });
+  EXPECT_NE(message.find("missing/solution-00000.h5"), std::string::npos) << message;
+
+  FieldWriter<2> on_full_disk(directory, MPI_COMM_WORLD);
+  const FullDisk full_disk(1000);
+  const std::string disk_message = message_of([&]() { on_full_disk.write(data, 0.); });
+  EXPECT_NE(disk_message.find("disk full"), std::string::npos) << disk_message;
+}

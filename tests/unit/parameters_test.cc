@@ -1,0 +1,264 @@
+// Parameters without the program around them: defaults, reading, printing, overrides, expressions.
+#include <gemmule/parameters/all_parameters.h>
+#include <gemmule/parameters/errors.h>
+#include <gemmule/parameters/expression.h>
+#include <gemmule/parameters/section.h>
+#include <gemmule/parameters/suggestion.h>
+
+#include <deal.II/base/function.h>
+#include <deal.II/base/parameter_handler.h>
+#include <deal.II/base/point.h>
+
+#include <cmath>
+#include <gtest/gtest.h>
+#include <sstream>
+
+#include "support/run_program.h"
+
+namespace Gemmule::Testing
+{
+using namespace Gemmule::Parameters;
+
+namespace
+{
+  std::string printed(const AllParameters &parameters)
+  {
+    std::ostringstream text;
+    parameters.print(text);
+    return text.str();
+  }
+
+  /** The message of the UserError that the action throws; fails if there is none. */
+  template <typename Action>
+  std::string message_of(const Action &action)
+  {
+    try
+    {
+      action();
+    }
+    catch (const UserError &error)
+    {
+      return error.what();
+    }
+    ADD_FAILURE() << "no UserError was thrown";
+    return "";
+  }
+} // namespace
+
+TEST(Parameters, DefaultsAreAValidCase)
+{
+  EXPECT_NO_THROW(AllParameters().check());
+}
+
+TEST(Parameters, NumbersSurvivePrintingExactly)
+{
+  for (const double value : {1e-7, 0.1, 1. / 3., 1e22, -std::nextafter(1., 2.), 0.05})
+    EXPECT_EQ(std::stod(to_text(value)), value) << to_text(value);
+}
+
+TEST(Parameters, EveryKindOfValueSurvivesPrintingAndParsing)
+{
+  AllParameters original;
+  original.end_time = 1. / 3.;
+  original.output_directory = "some where";
+  original.random_seed = 4294967295u;
+  original.domain.lower_corner = {-2. / 3., -1.};
+  original.domain.upper_corner = {1. / 3., 1.};
+  original.membrane.level_set = "if(x<=0, x^2, 2*x^2) + y^2 - 0.01";
+  original.membrane.tension_model = TensionModel::prescribed;
+  original.regularisation.model = RegularisationModel::update_smoothing;
+  original.arclength.model = ArclengthModel::penalty;
+  original.mesh.membrane_level = 5;
+  original.time_stepping.adaptive = false;
+  original.output.output_times = {0.1, 1. / 7.};
+
+  const TemporaryDirectory directory;
+  AllParameters read;
+  read.parse(directory.write("case.prm", printed(original)));
+  EXPECT_EQ(read.end_time, original.end_time);
+  EXPECT_EQ(read.output_directory, original.output_directory);
+  EXPECT_EQ(read.random_seed, original.random_seed);
+  EXPECT_EQ(read.domain.lower_corner, original.domain.lower_corner);
+  EXPECT_EQ(read.domain.upper_corner, original.domain.upper_corner);
+  EXPECT_EQ(read.membrane.level_set, original.membrane.level_set);
+  EXPECT_EQ(read.membrane.tension_model, TensionModel::prescribed);
+  EXPECT_EQ(read.regularisation.model, RegularisationModel::update_smoothing);
+  EXPECT_EQ(read.arclength.model, ArclengthModel::penalty);
+  EXPECT_EQ(read.mesh.membrane_level, 5u);
+  EXPECT_FALSE(read.time_stepping.adaptive);
+  EXPECT_EQ(read.output.output_times, original.output.output_times);
+  EXPECT_EQ(printed(read), printed(original));
+}
+
+TEST(Parameters, PrintedFileShowsTheDefaultOfWhatDiffers)
+{
+  AllParameters parameters;
+  parameters.fluid.viscosity_ratio = 10.;
+  const std::string text = printed(parameters);
+  EXPECT_NE(text.find("set Viscosity ratio  = 10 # default: 1"), std::string::npos) << text;
+}
+
+TEST(Parameters, EveryDescriptionNamesItsUnit)
+{
+  // Counts, levels, names and switches have none; every real number has.
+  dealii::ParameterHandler prm;
+  AllParameters parameters;
+  parameters.add_parameters(prm);
+  std::ostringstream json;
+  prm.print_parameters(json, dealii::ParameterHandler::JSON);
+  std::istringstream lines(json.str());
+  unsigned int n_reals = 0;
+  std::string documentation;
+  for (std::string line; std::getline(lines, line);)
+    if (line.find("\"documentation\"") != std::string::npos)
+    {
+      EXPECT_GT(line.size(), 60u) << line;
+      if (line.find("Expected: a number") != std::string::npos)
+      {
+        ++n_reals;
+        EXPECT_NE(line.find("dimensionless"), std::string::npos) << line;
+      }
+    }
+  EXPECT_GT(n_reals, 20u);
+}
+
+TEST(Parameters, FileSyntax)
+{
+  const TemporaryDirectory directory;
+  AllParameters parameters;
+  parameters.parse(directory.write("case.prm", "\xEF\xBB\xBF# byte order mark, carriage returns\r\n"
+                                               "  SET  End   time=3 # three\r\n"
+                                               "set Output directory = a b\r\n"
+                                               "subsection Membrane\r\n"
+                                               "\tset Level set = x^2 \\ # a circle\r\n"
+                                               "   + y^2 \\\r\n"
+                                               "   - 0.1\r\n"
+                                               "  subsection Arclength constraint\r\n"
+                                               "    set Model = penalty\r\n"
+                                               "  END\r\n"
+                                               "  set Tension model = prescribed\r\n"
+                                               "end\r\n"
+                                               "subsection Output\r\n  set Output times = +1e-1 , 2\r\nend"));
+  EXPECT_EQ(parameters.end_time, 3.);
+  EXPECT_EQ(parameters.output_directory, "a b");
+  EXPECT_EQ(make_function<2>(parameters.membrane.level_set, 1, "")->value(dealii::Point<2>(2, 3)), 12.9);
+  EXPECT_EQ(parameters.arclength.model, ArclengthModel::penalty);
+  EXPECT_EQ(parameters.membrane.tension_model, TensionModel::prescribed);
+  EXPECT_EQ(parameters.output.output_times, (std::vector<double>{0.1, 2.}));
+}
+
+TEST(Parameters, OverridesReplaceTheFile)
+{
+  const TemporaryDirectory directory;
+  const std::string file =
+      directory.write("case.prm", "set End time = 3\nsubsection Mesh\nset Bulk level = 4\nend\n");
+  AllParameters parameters;
+  parameters.parse(file, {"End time=4", "Membrane/Arclength constraint/Model = penalty",
+                          "Membrane/Level set=if(x==0,1,x/2)", "Mesh / Membrane level=5"});
+  EXPECT_EQ(parameters.end_time, 4.);
+  EXPECT_EQ(parameters.mesh.bulk_level, 4u);
+  EXPECT_EQ(parameters.mesh.membrane_level, 5u);
+  EXPECT_EQ(parameters.arclength.model, ArclengthModel::penalty);
+  EXPECT_EQ(parameters.membrane.level_set, "if(x==0,1,x/2)");
+}
+
+TEST(Parameters, FailureLeavesTheObjectAsItWas)
+{
+  AllParameters parameters;
+  EXPECT_THROW(parameters.parse("", {"End time=4", "Mesh/Bulk level=9"}), UserError);
+  EXPECT_EQ(parameters.end_time, 2.);
+  EXPECT_EQ(parameters.mesh.bulk_level, 3u);
+}
+
+TEST(Parameters, CheckFindsValuesThatNoFileSet)
+{
+  AllParameters parameters;
+  parameters.fluid.capillary_number = -1.;
+  EXPECT_EQ(message_of([&] { parameters.check(); }),
+            "Fluid/Capillary number: the value '-1' is not allowed; expected a number > 0.");
+  parameters = AllParameters();
+  parameters.time_stepping.tolerance = std::nan("");
+  EXPECT_THROW(parameters.check(), ParameterError);
+  parameters = AllParameters();
+  parameters.membrane.surface_energy = "";
+  EXPECT_THROW(parameters.check(), ParameterError);
+}
+
+TEST(Parameters, NamesOfEnergiesAreLeftToTheirRegistry)
+{
+  AllParameters parameters;
+  parameters.membrane.double_well = "one of a user's own";
+  EXPECT_NO_THROW(parameters.check());
+}
+
+TEST(Parameters, BoxFollowsTheDimension)
+{
+  AllParameters parameters;
+  parameters.parse("", {"Dimension=3"});
+  EXPECT_EQ(parameters.domain.lower<3>(), dealii::Point<3>(-1, -1, -1));
+  EXPECT_EQ(parameters.domain.upper<3>(), dealii::Point<3>(1, 1, 1));
+  EXPECT_EQ(parameters.domain.boundary_velocity, "0; 0; 0");
+  AllParameters other;
+  EXPECT_THROW(other.parse("", {"Dimension=3", "Domain/Lower corner=-1,-1"}), UserError);
+}
+
+TEST(Parameters, BoxOfSeveralCubes)
+{
+  Domain domain;
+  domain.lower_corner = {-0.3, -0.1};
+  domain.upper_corner = {0.6, 0.2};
+  domain.check();
+  EXPECT_EQ(domain.coarse_cells(), (std::vector<unsigned int>{3, 1}));
+  EXPECT_NEAR(domain.shortest_edge(), 0.3, 1e-15);
+  domain.upper_corner[0] = 0.601;
+  EXPECT_THROW(domain.check(), ParameterError);
+}
+
+TEST(Suggestion, DistanceCountsEdits)
+{
+  EXPECT_EQ(edit_distance("", "abc"), 3u);
+  EXPECT_EQ(edit_distance("kitten", "sitting"), 3u);
+  EXPECT_EQ(edit_distance("Level", "lEVEL"), 0u);
+  EXPECT_EQ(edit_distance("chekc", "check"), 1u);
+}
+
+TEST(Suggestion, NearestOrNothing)
+{
+  EXPECT_EQ(nearest("Cahn numbr", {"Peclet number", "Cahn number", "Mach number"}), "Cahn number");
+  EXPECT_EQ(nearest("cahn number", {"Mach number", "Cahn number"}), "Cahn number");
+  EXPECT_EQ(nearest("Bending", {"Fluid", "Membrane"}), "");
+  EXPECT_EQ(nearest("", {"a", "b"}), "");
+}
+
+TEST(Expression, VariablesTimeAndConstants)
+{
+  auto scalar = make_function<2>("x + 10*y + 100*t + cos(pi)", 1, "here");
+  EXPECT_DOUBLE_EQ(scalar->value(dealii::Point<2>(1, 2)), 20.);
+  scalar->set_time(0.5);
+  EXPECT_DOUBLE_EQ(scalar->value(dealii::Point<2>(1, 2)), 70.);
+
+  const auto vector = make_function<3>("z; x*y; -t", 3, "here");
+  EXPECT_EQ(vector->n_components, 3u);
+  EXPECT_DOUBLE_EQ(vector->value(dealii::Point<3>(2, 3, 4), 0), 4.);
+  EXPECT_DOUBLE_EQ(vector->value(dealii::Point<3>(2, 3, 4), 1), 6.);
+}
+
+TEST(Expression, ParsingErrorsAreNotPrinted)
+{
+  ::testing::internal::CaptureStderr();
+  const std::string message = message_of([] { make_function<2>("x+bla", 1, "Some/Place"); });
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
+  EXPECT_EQ(message.find("Some/Place: the expression 'x+bla' cannot be understood: Unexpected token \"bla"),
+            0u)
+      << message;
+}
+
+TEST(Expression, NotFiniteAtAPoint)
+{
+  const auto function = make_function<2>("1/(x-t)", 1, "here");
+  EXPECT_NO_THROW(check_finite<2>(*function, {{1, 0}}, "here"));
+  function->set_time(1.);
+  const std::string message = message_of([&] { check_finite<2>(*function, {{2, 0}, {1, 5}}, "here"); });
+  EXPECT_EQ(message.find("here: the expression has the value inf at (1, 5), t = 1."), 0u) << message;
+}
+} // namespace Gemmule::Testing

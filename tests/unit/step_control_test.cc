@@ -1,0 +1,93 @@
+#include <gemmule/parameters/errors.h>
+#include <gemmule/time/step_control.h>
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace Gemmule
+{
+namespace
+{
+  constexpr double unlimited = std::numeric_limits<double>::max();
+
+  Parameters::TimeStepping parameters()
+  {
+    Parameters::TimeStepping p;
+    p.initial_step = 0.01;
+    p.smallest_step = 1e-4;
+    p.largest_step = 0.08;
+    return p;
+  }
+} // namespace
+
+TEST(StepControl, HitsAllStopsExactlyAndEnds)
+{
+  StepControl control(parameters(), 0., {1., 0.3, 0.1234, 1.});
+  std::vector<double> times;
+  while (!control.finished())
+  {
+    EXPECT_GT(control.propose(unlimited), 1e-4);
+    ASSERT_TRUE(control.judge(0.1));
+    times.push_back(control.time());
+  }
+  for (const double stop : {0.1234, 0.3, 1.})
+    EXPECT_EQ(std::count(times.begin(), times.end(), stop), 1) << stop;
+  EXPECT_EQ(times.back(), 1.);
+}
+
+TEST(StepControl, GrowsToTheLargestStepAndRespectsTheStabilityLimit)
+{
+  StepControl control(parameters(), 0., {100.});
+  double previous = 0.01;
+  for (unsigned int i = 0; i < 20; ++i)
+  {
+    const double step = control.propose(unlimited);
+    EXPECT_LE(step, 1.5 * previous * (1. + 1e-12));
+    previous = step;
+    control.judge(1e-6);
+  }
+  EXPECT_DOUBLE_EQ(previous, 0.08);
+  EXPECT_DOUBLE_EQ(control.propose(0.02), 0.02);
+}
+
+TEST(StepControl, RepeatsABadStepSmallerAndStaysWhereItIs)
+{
+  StepControl control(parameters(), 0.5, {2.});
+  const double step = control.propose(unlimited);
+  EXPECT_FALSE(control.judge(8.));
+  EXPECT_EQ(control.time(), 0.5);
+  EXPECT_NEAR(control.propose(unlimited), 0.45 * step, 1e-12);
+}
+
+TEST(StepControl, HalvesAfterAFailureAndGivesUpAtTheSmallestStep)
+{
+  StepControl control(parameters(), 0., {2.});
+  double step = control.propose(unlimited);
+  control.fail("no convergence.");
+  EXPECT_DOUBLE_EQ(control.propose(unlimited), 0.5 * step);
+  const auto go_on = [&] {
+    for (unsigned int i = 0; i < 20; ++i)
+    {
+      control.propose(unlimited);
+      control.fail("no convergence.");
+    }
+  };
+  EXPECT_THROW(go_on(), SimulationError);
+}
+
+TEST(StepControl, KeepsTheStepWhenNotAdaptive)
+{
+  auto p = parameters();
+  p.adaptive = false;
+  StepControl control(p, 0., {0.1});
+  unsigned int n = 0;
+  while (!control.finished())
+  {
+    EXPECT_NEAR(control.propose(1e-9), 0.01, 1e-12);
+    EXPECT_TRUE(control.judge(1e9));
+    ++n;
+  }
+  EXPECT_EQ(n, 10u);
+}
+} // namespace Gemmule
