@@ -421,6 +421,7 @@ typename CoupledSystem<dim>::StepErrors CoupledSystem<dim>::try_step(const doubl
   }
 
   solve_flow(time, dt);
+  last_computed_time = time;
   trial = take_snapshot(time, transported);
   return estimate_errors(dt, transported, predicted);
 }

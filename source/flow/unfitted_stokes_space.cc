@@ -1,4 +1,5 @@
 #include <gemmule/flow/unfitted_stokes_space.h>
+#include <gemmule/parameters/errors.h>
 
 #include <deal.II/dofs/dof_tools.h>
 #include <deal.II/fe/fe_q.h>
@@ -131,10 +132,10 @@ void UnfittedStokesSpace<dim>::reinit(const CutGeometry<dim> &geometry,
       is_active[fluid][cell] = geometry.is_active(cell, fluid);
     touches_boundary = touches_boundary || (is_active[0][cell] && boundary[cell]);
   }
-  AssertThrow(
-      !Utilities::MPI::max(static_cast<int>(touches_boundary), communicator()),
-      ExcMessage("The membrane has reached the boundary of the box, where the velocity is prescribed. "
-                 "Choose a larger box."));
+  if (Utilities::MPI::max(static_cast<int>(touches_boundary), communicator()))
+    throw SimulationError(
+        "The membrane has reached the boundary of the box, where the velocity is prescribed. "
+        "Choose a larger box.");
 
   outside_constraints.clear();
   outside_constraints.reinit(relevant);

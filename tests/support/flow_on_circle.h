@@ -4,6 +4,8 @@
 #include <gemmule/parameters/discretisation.h>
 #include <gemmule/parameters/fluid.h>
 
+#include <deal.II/base/function_signed_distance.h>
+
 #include <cmath>
 #include <functional>
 

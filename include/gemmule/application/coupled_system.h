@@ -52,7 +52,10 @@ public:
   /** Makes the state of the last try the current one. */
   void accept();
 
+  /** Time of the current (accepted) state. */
   double time() const { return current.time; }
+  /** Time of the last state that was computed, accepted or not: the time of all that the functions below return. */
+  double computed_time() const { return last_computed_time; }
   double last_step() const { return dt_previous; }
 
   /** Limit C h Ca / max|sigma| of the explicit coupling, per unit of C. */
@@ -112,5 +115,6 @@ private:
   double dt_previous = 0.;  ///< between previous and current
   double dt_preceding = 0.; ///< the one before
   double dt_trial = 0.;
+  double last_computed_time = 0.;
 };
 } // namespace Gemmule

@@ -1,24 +1,66 @@
 #pragma once
 
+#include <gemmule/output/run_log.h>
+#include <gemmule/output/statistics.h>
 #include <gemmule/parameters/all_parameters.h>
 
+#include <deal.II/base/timer.h>
+
+#include <memory>
 #include <mpi.h>
 #include <string>
+#include <vector>
 
 namespace Gemmule
 {
-/** Runs one case. */
+template <int dim>
+class CoupledSystem;
+template <int dim>
+class FieldWriter;
+template <int dim>
+class InterfaceWriter;
+class OutputDirectory;
+class StepControl;
+
+/** Runs one case: the time loop around CoupledSystem, with step control and output. */
 template <int dim>
 class VesicleProblem
 {
 public:
+  /** Throws UserError when the case cannot be set up. Collective. */
   VesicleProblem(const AllParameters &parameters, MPI_Comm communicator, const std::string &command_line,
                  bool resume);
-  /** @return exit code of the program */
+  ~VesicleProblem();
+
+  /** @return exit code of the program: 0 finished. Throws SimulationError. */
   int run();
+
+private:
+  std::vector<double> stops() const;
+  void announce() const;
+  /** One accepted step, however many attempts that takes. */
+  void make_step(StepControl &control);
+  void report();
+  void write_output_if_due(bool at_end);
+  void print_timers();
+
+  const AllParameters parameters;
+  const MPI_Comm communicator;
+  const std::string command_line;
+  dealii::Timer wall_clock;
+  std::unique_ptr<OutputDirectory> directory;
+  std::unique_ptr<RunLog> log;
+  std::unique_ptr<CoupledSystem<dim>> system;
+  std::unique_ptr<StatisticsWriter> statistics;
+  std::unique_ptr<InterfaceWriter<dim>> interface_writer;
+  std::unique_ptr<FieldWriter<dim>> field_writer;
+
+  StatisticsRow row, previous_row;
+  double error_shape = 0., error_composition = 0.;
+  unsigned int n_rejected = 0;
 };
 
-/** Checks what needs more than the parameters themselves. @throws UserError */
+/** Checks what needs more than the parameters themselves: the initial membrane. @throws UserError. Collective. */
 template <int dim>
 void check_case(const AllParameters &parameters, MPI_Comm communicator);
 } // namespace Gemmule

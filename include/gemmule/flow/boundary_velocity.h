@@ -31,7 +31,7 @@ public:
   /**
    * Adds the lines u = u_infinity to @p constraints, which hold the hanging nodes and are not closed yet.
    * @param velocity dim components, its time set by the caller
-   * Throws ExcMessage if the flux of u_infinity is too large to be an error of interpolation. Collective.
+   * Throws UserError if the flux of u_infinity is too large to be an error of interpolation. Collective.
    */
   void constrain(const dealii::Function<dim> &velocity, dealii::AffineConstraints<double> &constraints);
 

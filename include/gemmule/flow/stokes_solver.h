@@ -40,8 +40,8 @@ public:
   /**
    * Assembles and factorises. @p geometry must stay unchanged as long as solve() and the results are used.
    * @param boundary_velocity u_infinity, dim components, its time set by the caller
-   * Throws ExcMessage (membrane at the boundary, u_infinity with net flux) and SimulationError
-   * (factorisation).
+   * Throws SimulationError (membrane at the boundary, factorisation) and UserError (u_infinity with
+   * net flux).
    */
   void prepare(const CutGeometry<dim> &geometry, const dealii::Function<dim> &boundary_velocity);
 

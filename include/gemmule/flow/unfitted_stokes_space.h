@@ -45,7 +45,7 @@ public:
 
   /**
    * Numbers the unknowns for the given position of the membrane and velocity on the boundary (time set by the
-   * caller). Throws ExcMessage if the membrane touches the boundary of the box. Collective.
+   * caller). Throws SimulationError if the membrane touches the boundary of the box. Collective.
    */
   void reinit(const CutGeometry<dim> &geometry, const dealii::Function<dim> &boundary_velocity);
 
