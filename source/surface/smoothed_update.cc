@@ -68,7 +68,7 @@ TraceField<dim> SmoothedUpdate<dim>::smoothed_rate(const TraceSpace<dim> &space,
   {
     const auto &cell = space.band()[k];
     stiffness.equ(stabilisation / cell.size, cell.normal_derivatives);
-    mass = 0.;
+    mass.equ(stabilisation * cell.size, cell.normal_derivatives);
     local.fill(0.);
     if (cell.cut)
       for (unsigned int q = 0; q < cell.cut->surface_points.size(); ++q)

@@ -11,14 +11,14 @@ namespace Gemmule
  * with S = u.grad_s fbar + fbar div_s u taken of the predicted fbar. As a mixed problem of second order on
  * the membrane at t_n,
  *
- *   (r, v) + delta (grad_s z, grad_s v) + delta (rho/h) s(z, v) = (-S, v)
- *   (z, y) - (grad_s r, grad_s y) - (rho/h) s(r, y) = 0,        s(a, b) = int_band (n.grad a)(n.grad b),
+ *   m(r, v) + delta a(z, v) = (-S, v),   m(z, y) - a(r, y) = 0,
+ *   m(r, v) = (r, v) + rho h s(r, v),    a(r, v) = (grad_s r, grad_s v) + (rho/h) s(r, v),
  *
- * followed by a0 fbar + a1 fbar_{n-1} + a2 fbar_{n-2} = dt r with the earlier fields extended to the membrane
- * at t_n. Both stabilisations complete grad_s.grad_s to one and the same symmetric form, so that the discrete
- * filter is (M + delta A M^{-1} A)^{-1}: a contraction that leaves the mean of -S as it is. The step is not
- * conservative by itself; a constant is added to fbar in the end that makes the mass that of the cloud at
- * t_{n-1}.
+ * s(a, b) = int_band (n.grad a)(n.grad b), followed by a0 fbar + a1 fbar_{n-1} + a2 fbar_{n-2} = dt r with
+ * the earlier fields extended to the membrane at t_n. With the matrices M and A of the two forms the discrete
+ * filter is (M + delta A M^{-1} A)^{-1}: a contraction for every delta, and one that leaves the mean of -S as
+ * it is. The step is not conservative by itself; a constant is added to fbar in the end that makes the mass
+ * that of the cloud at t_{n-1}.
  */
 template <int dim>
 class SmoothedUpdate : public TotalConcentration<dim>
