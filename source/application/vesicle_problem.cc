@@ -134,6 +134,13 @@ void VesicleProblem<dim>::make_step(StepControl &control)
     }
     if (control.judge(std::max(error_shape, error_composition) / options.tolerance))
     {
+      if (control.noise_floor() > 0.)
+        log->warn_once("noise floor", "at t = " + rounded(control.time()) + " the estimated local error (shape " +
+                                        rounded(error_shape) + ", composition " + rounded(error_composition) +
+                                        ") does not fall with the step size: it is one of the mesh, and tolerated. "
+                                        "Refine the mesh ('Mesh/Phase boundary level'), or loosen 'Time "
+                                        "stepping/Tolerance' = " +
+                                        rounded(options.tolerance) + ".");
       system->accept();
       return;
     }

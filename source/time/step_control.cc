@@ -15,6 +15,8 @@ namespace
   constexpr double same = 1e-9;
   constexpr double safety = 0.9;
   constexpr double order_of_local_error = 3.;
+  // How fast an estimate that could not be reduced is forgotten, per step.
+  constexpr double fading = 0.95;
 } // namespace
 
 StepControl::StepControl(const Parameters::TimeStepping &parameters, const double start_time,
@@ -53,26 +55,41 @@ void StepControl::shrink(const double factor, const std::string &reason)
   wanted = std::max(factor * proposed, parameters.smallest_step);
 }
 
-bool StepControl::judge(const double error)
+bool StepControl::judge(const double estimate)
 {
+  // In units of what can be reached.
+  const double error = estimate / std::max(1., 1.5 * floor);
   const double ideal = safety * std::pow(std::max(error, 1e-10), -1. / order_of_local_error);
   if (parameters.adaptive && error > 1.)
   {
-    std::ostringstream reason;
-    reason << "the estimated local error is " << error << " times the tolerance.";
-    shrink(std::clamp(ideal, 0.2, 0.9), reason.str());
-    return false;
+    const bool falls = rejected_step == 0. || estimate < rejected_error * proposed / rejected_step;
+    if (falls)
+    {
+      rejected_step = proposed;
+      rejected_error = estimate;
+      std::ostringstream reason;
+      reason << "the estimated local error is " << estimate << " times the tolerance.";
+      shrink(std::clamp(ideal, 0.2, 0.7), reason.str());
+      return false;
+    }
+    floor = std::max(floor, estimate);
+    wanted = rejected_step;
   }
+  else if (parameters.adaptive)
+  {
+    floor = floor < 0.1 ? 0. : fading * floor;
+    wanted = std::min(std::max(proposed * std::min(ideal, parameters.largest_growth),
+                               // a step cut short by a stop says little about what is possible
+                               ideal >= 1. ? std::min(wanted, proposed * ideal) : 0.),
+                      parameters.largest_step);
+  }
+  rejected_step = 0.;
+
   const auto next = std::upper_bound(stops.begin(), stops.end(), now + same * proposed);
   now += proposed;
   // exactly on the stop, so that round-off does not add up
   if (next != stops.end() && std::abs(*next - now) < same * proposed)
     now = *next;
-  if (parameters.adaptive)
-    wanted = std::min(std::max(proposed * std::min(ideal, parameters.largest_growth),
-                               // a step cut short by a stop says little about what is possible
-                               ideal >= 1. ? std::min(wanted, proposed * ideal) : 0.),
-                      parameters.largest_step);
   return true;
 }
 

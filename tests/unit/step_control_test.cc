@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace Gemmule
@@ -58,6 +60,22 @@ TEST(StepControl, RepeatsABadStepSmallerAndStaysWhereItIs)
   EXPECT_FALSE(control.judge(8.));
   EXPECT_EQ(control.time(), 0.5);
   EXPECT_NEAR(control.propose(unlimited), 0.45 * step, 1e-12);
+  EXPECT_TRUE(control.judge(0.9));
+  EXPECT_GT(control.time(), 0.5);
+}
+
+TEST(StepControl, DoesNotChaseAnErrorThatIsNotOneOfTime)
+{
+  // An estimate with a part that no step size reduces, five times the tolerance.
+  StepControl control(parameters(), 0., {0.5});
+  unsigned int n_attempts = 0;
+  while (!control.finished())
+  {
+    const double step = control.propose(unlimited);
+    control.judge(5. + std::pow(step / 0.05, 3));
+    ASSERT_LT(++n_attempts, 150u); // 50 steps of the initial size, and then some
+  }
+  EXPECT_GT(control.noise_floor(), 1.);
 }
 
 TEST(StepControl, HalvesAfterAFailureAndGivesUpAtTheSmallestStep)

@@ -31,6 +31,10 @@ public:
   /**
    * @param error estimated local error of the proposed step, in units of the tolerance
    * @return whether the step is accepted; time() has then advanced. Otherwise propose() again.
+   *
+   * An estimate that does not fall in proportion when a step is repeated smaller is not an error of the time
+   * discretisation (but, say, of a mesh that is too coarse for the phase boundaries), and no step size mends it: the step
+   * is accepted, and what it showed is tolerated in the following steps, see noise_floor().
    * Throws SimulationError when a rejected step already had the smallest size.
    */
   bool judge(double error);
@@ -41,6 +45,9 @@ public:
    */
   void fail(const std::string &reason);
 
+  /** Part of the estimates, in units of the tolerance, that does not depend on the step size; 0 if not noticed. */
+  double noise_floor() const { return floor; }
+
 private:
   void shrink(double factor, const std::string &reason);
 
@@ -49,5 +56,7 @@ private:
   std::vector<double> stops;
   double wanted;         ///< step that the controller would like
   double proposed = 0.;  ///< step in work
+  double rejected_step = 0., rejected_error = 0.; ///< last rejection at this time, if any
+  double floor = 0.;
 };
 } // namespace Gemmule
