@@ -40,7 +40,7 @@ void Mesh::add_parameters(dealii::ParameterHandler &prm)
       "membrane has used up its layers.",
       Range::at_least(1));
   section.add("Largest number of cells", largest_number_of_cells,
-              "The simulation stops with a message if the mesh would have more cells than this.",
+              "If the criteria ask for more cells than this, the finest level is lowered, with a warning.",
               Range::at_least(1));
 }
 
