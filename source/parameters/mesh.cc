@@ -40,7 +40,8 @@ void Mesh::add_parameters(dealii::ParameterHandler &prm)
       "membrane has used up its layers.",
       Range::at_least(1));
   section.add("Largest number of cells", largest_number_of_cells,
-              "If the criteria ask for more cells than this, the finest level is lowered, with a warning.",
+              "When the mesh gets more cells than this, its finest level is lowered by one, with a warning and for "
+              "the rest of the run, though never down to the bulk level.",
               Range::at_least(1));
 }
 
