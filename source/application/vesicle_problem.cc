@@ -51,6 +51,7 @@ VesicleProblem<dim>::VesicleProblem(const AllParameters &parameters_, const MPI_
   statistics = std::make_unique<StatisticsWriter>(directory->path(), communicator);
   interface_writer = std::make_unique<InterfaceWriter<dim>>(directory->path(), communicator, command_line);
   field_writer = std::make_unique<FieldWriter<dim>>(directory->path(), communicator);
+  membrane = std::make_unique<InterfaceSamples<dim>>();
 }
 
 template <int dim>
@@ -101,7 +102,15 @@ int VesicleProblem<dim>::run()
   StepControl control(parameters.time_stepping, 0., stops());
   while (!control.finished())
   {
-    make_step(control);
+    try
+    {
+      make_step(control);
+    }
+    catch (const SimulationError &error)
+    {
+      save_last_state(error.what());
+      throw;
+    }
     report();
     write_output_if_due(control.finished());
     if (parameters.output.progress)
@@ -155,8 +164,9 @@ template <int dim>
 void VesicleProblem<dim>::report()
 {
   previous_row = row;
-  const auto membrane = sample_membrane(*system);
-  row = make_statistics(*system, membrane);
+  membrane_is_written = false;
+  *membrane = sample_membrane(*system);
+  row = make_statistics(*system, *membrane);
   row.step = row.time > 0. ? previous_row.step + 1 : 0;
   row.time_step_size = row.time - previous_row.time;
   row.wall_time = wall_clock.wall_time();
@@ -188,9 +198,22 @@ void VesicleProblem<dim>::write_output_if_due(const bool at_end)
 {
   const auto &output = parameters.output;
   if (is_due(row.time, output.interface_interval, output.output_times) || at_end)
-    interface_writer->write(sample_membrane(*system));
+  {
+    interface_writer->write(*membrane);
+    membrane_is_written = true;
+  }
   if (is_due(row.time, output.field_interval, output.output_times) || (at_end && output.field_interval > 0.))
     write_fields(*system, row.time, *field_writer);
+}
+
+template <int dim>
+void VesicleProblem<dim>::save_last_state(const std::string &reason)
+{
+  // The mesh already belongs to the step that failed; the membrane of the last accepted step is kept as samples.
+  if (!membrane_is_written)
+    interface_writer->write(*membrane);
+  log->info("stopped at t = " + rounded(row.time) + " after " + std::to_string(row.step) + " steps: " + reason +
+            " The membrane of the last accepted step is in interface.h5.");
 }
 
 template <int dim>

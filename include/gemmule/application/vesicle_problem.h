@@ -19,6 +19,8 @@ template <int dim>
 class FieldWriter;
 template <int dim>
 class InterfaceWriter;
+template <int dim>
+struct InterfaceSamples;
 class OutputDirectory;
 class StepControl;
 
@@ -42,6 +44,8 @@ private:
   void make_step(StepControl &control);
   void report();
   void write_output_if_due(bool at_end);
+  /** Before the run ends with an error: what was accepted last goes to the disk. */
+  void save_last_state(const std::string &reason);
   void print_timers();
 
   const AllParameters parameters;
@@ -55,6 +59,8 @@ private:
   std::unique_ptr<InterfaceWriter<dim>> interface_writer;
   std::unique_ptr<FieldWriter<dim>> field_writer;
 
+  std::unique_ptr<InterfaceSamples<dim>> membrane; ///< of the last accepted step
+  bool membrane_is_written = false;
   StatisticsRow row, previous_row;
   double error_shape = 0., error_composition = 0.;
   unsigned int n_rejected = 0;
