@@ -41,10 +41,12 @@ def arclength(axis, table):
 
 
 def energies(axis, table):
+    """Changes since the start: the energies themselves are large beside what they change by."""
     for number, (name, label) in enumerate(ENERGIES.items()):
         if name in table and (name == "energy_total" or np.any(table[name] != 0.0)):
-            axis.plot(table.time, table[name], "-" if number == 0 else "--", label=label)
-    axis.set_ylabel("energy $E$")
+            change = table[name] - table[name].iloc[0]
+            axis.plot(table.time, change, "-" if number == 0 else "--", label=label)
+    axis.set_ylabel("energy $E - E(0)$")
     axis.legend(ncols=2)
 
 

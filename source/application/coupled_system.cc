@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <limits>
+#include <sstream>
 
 namespace Gemmule
 {
@@ -18,6 +19,8 @@ namespace
   constexpr double largest_distance_drift = 0.05;
   // The area is corrected to this relative accuracy: round-off of its quadrature.
   constexpr double area_tolerance = 1e-12;
+  // A step that is wrong by more than this part of the area has lost the membrane, and is no case for a correction.
+  constexpr double largest_area_error = 0.05;
 
   /** Q2 nodal values as Q3 nodal values of the same polynomial. */
   template <int dim, typename T>
@@ -38,7 +41,17 @@ namespace
   }
 
   template <int dim>
-  double lattice_sign_change(const Function<dim> &function, const Point<dim> &corner, const double h)
+  std::string coordinates(const Point<dim> &p)
+  {
+    std::ostringstream text;
+    text.precision(3);
+    for (unsigned int d = 0; d < dim; ++d)
+      text << (d == 0 ? "" : ", ") << p[d];
+    return text.str();
+  }
+
+  template <int dim>
+  bool lattice_sign_change(const Function<dim> &function, const Point<dim> &corner, const double h)
   {
     constexpr unsigned int n = 8;
     bool negative = false, positive = false;
@@ -61,7 +74,8 @@ CoupledSystem<dim>::CoupledSystem(const AllParameters &parameters_, const MPI_Co
       make_box_mesh(triangulation, parameters.domain, parameters.mesh.bulk_level);
       return lower_corner<dim>(parameters.domain);
     }()),
-    timer_output(communicator, std::cout, TimerOutput::never, TimerOutput::cpu_and_wall_times),
+    // Without the communicator: with it, every exception would be preceded by a banner on the screen.
+    timer_output(std::cout, TimerOutput::never, TimerOutput::cpu_and_wall_times),
     boundary_velocity(make_function<dim>(parameters.domain.boundary_velocity, dim, "Domain/Boundary velocity")),
     prescribed_tension(make_function<dim>(parameters.membrane.prescribed_tension, 1, "Membrane/Prescribed tension")),
     model(parameters.membrane, parameters.regularisation), level_set(triangulation),
@@ -120,11 +134,8 @@ void CoupledSystem<dim>::make_initial_mesh()
   {
     level_set.reinit_mesh();
     level_set.interpolate(*shape);
-    if (membrane_touches_wall())
-      throw UserError("Membrane/Level set: the membrane '" + parameters.membrane.level_set +
-                      "' touches the wall of the box or leaves it. Enlarge the box (Domain/Lower corner, "
-                      "Domain/Upper corner) or make the vesicle smaller.");
     geometry.reinit(level_set.get_dof_handler(), level_set.values());
+    check_initial_wall();
     const auto patches = gather_patches(
       geometry.cut_cells(), std::vector<MembraneFields<dim>>(geometry.cut_cells().size()), communicator);
     const MembraneProjection<dim> membrane(patches, origin);
@@ -146,8 +157,9 @@ void CoupledSystem<dim>::make_initial_mesh()
       check_finite(*total_concentration, points, "Membrane/Initial total concentration");
       for (const auto &p : points)
         if (total_concentration->value(p) <= 0.)
-          throw UserError("Membrane/Initial total concentration: '" + parameters.membrane.initial_total_concentration +
-                          "' is not positive everywhere on the membrane.");
+          throw ParameterError("Membrane/Initial total concentration",
+                               "'" + parameters.membrane.initial_total_concentration + "' is not positive at (" +
+                                 coordinates(p) + ") on the membrane. Give an expression that is positive there.");
     }
     else
       check_finite(*prescribed_tension, points, "Membrane/Prescribed tension");
@@ -181,31 +193,45 @@ void CoupledSystem<dim>::initialise()
     for (unsigned int i = 0; i < MembraneFields<dim>::n; ++i)
       at_rest[c].previous_velocity[i] = raise_degree<dim>(flow.membrane_velocity()[c].nodal)[i];
   current = take_snapshot(0., at_rest);
+  current_capillary_step = compute_capillary_time_step();
 }
 
 template <int dim>
-bool CoupledSystem<dim>::membrane_touches_wall() const
+typename CoupledSystem<dim>::WallCells CoupledSystem<dim>::count_wall_cells() const
 {
-  // Cells at the wall whose level set is not positive on it.
-  const auto &dof_handler = level_set.get_dof_handler();
-  std::vector<types::global_dof_index> dofs(dof_handler.get_fe().n_dofs_per_face());
-  bool touches = false;
-  for (const auto &cell : dof_handler.active_cell_iterators())
+  WallCells count;
+  for (const auto &cell : triangulation.active_cell_iterators())
     if (cell->is_locally_owned() && cell->at_boundary())
-      for (const unsigned int f : cell->face_indices())
-        if (cell->face(f)->at_boundary())
-        {
-          cell->face(f)->get_dof_indices(dofs);
-          for (const auto dof : dofs)
-            touches = touches || level_set.values()(dof) <= 0.;
-        }
-  return Utilities::MPI::max(static_cast<unsigned int>(touches), communicator) > 0;
+    {
+      ++count.all;
+      // Cut cells count as well: the flow needs whole cells of the outer fluid where the velocity is prescribed.
+      count.not_outside += geometry.is_active(cell->active_cell_index(), 0);
+      count.inside += geometry.location(cell->active_cell_index()) == CellLocation::inside;
+    }
+  count.all = Utilities::MPI::sum(count.all, communicator);
+  count.not_outside = Utilities::MPI::sum(count.not_outside, communicator);
+  count.inside = Utilities::MPI::sum(count.inside, communicator);
+  return count;
+}
+
+template <int dim>
+void CoupledSystem<dim>::check_initial_wall() const
+{
+  const WallCells count = count_wall_cells();
+  const std::string expression = "Membrane/Level set: '" + parameters.membrane.level_set + "' ";
+  if (count.inside == count.all)
+    throw UserError(expression + "is negative along all walls of the box, but has to be positive outside the vesicle. "
+                                 "Change its sign: -(" + parameters.membrane.level_set + ").");
+  if (count.not_outside > 0)
+    throw UserError(expression +
+                    "describes a membrane that touches a wall of the box, comes closer to it than one cell, or leaves "
+                    "the box. Enlarge the box (Domain/Lower corner, Domain/Upper corner) or make the vesicle smaller.");
 }
 
 template <int dim>
 void CoupledSystem<dim>::check_wall() const
 {
-  if (membrane_touches_wall())
+  if (count_wall_cells().not_outside > 0)
     throw SimulationError("The membrane has reached the wall of the box. Use a larger box, or end earlier.");
 }
 
@@ -262,6 +288,7 @@ void CoupledSystem<dim>::cut_mesh(const bool keep_area)
 {
   TimerOutput::Scope scope(timer_output, "geometry: cut cells");
   geometry.reinit(level_set.get_dof_handler(), level_set.values());
+  check_wall();
   last_area_correction = 0.;
   // Newton's method: a shift by s changes the area by -s L.
   for (unsigned int i = 0; keep_area && i < 3; ++i)
@@ -271,6 +298,8 @@ void CoupledSystem<dim>::cut_mesh(const bool keep_area)
       throw SimulationError("The membrane has vanished: no cell of the mesh is cut by it any more.");
     if (std::abs(excess) < area_tolerance * area_0)
       break;
+    if (std::abs(excess) > largest_area_error * area_0)
+      throw SimulationError("The enclosed area changes by more than 5 % in one time step: the step is too long.");
     const double shift = excess / geometry.measure();
     level_set.shift(shift);
     last_area_correction += shift;
@@ -370,7 +399,6 @@ typename CoupledSystem<dim>::StepErrors CoupledSystem<dim>::try_step(const doubl
     level_set.advance(motion, BandLevelSet<dim>(current.band, origin),
                       membrane.distance_drift() > largest_distance_drift);
   }
-  check_wall();
   cut_mesh(true);
 
   std::vector<TransportedFields<dim>> transported;
@@ -435,6 +463,7 @@ typename CoupledSystem<dim>::StepErrors CoupledSystem<dim>::try_step(const doubl
     old_velocity[c] = transported[c].previous_velocity;
   solve_flow(time, dt, &old_velocity);
   last_computed_time = time;
+  trial_capillary_step = compute_capillary_time_step();
   trial = take_snapshot(time, transported);
   return estimate_errors(dt, transported, predicted);
 }
@@ -491,10 +520,11 @@ void CoupledSystem<dim>::accept()
   dt_previous = dt_trial;
   previous = std::move(current);
   current = std::move(trial);
+  current_capillary_step = trial_capillary_step;
 }
 
 template <int dim>
-double CoupledSystem<dim>::capillary_time_step() const
+double CoupledSystem<dim>::compute_capillary_time_step() const
 {
   double local = std::numeric_limits<double>::max();
   for (unsigned int c = 0; c < geometry.cut_cells().size(); ++c)

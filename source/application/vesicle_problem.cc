@@ -219,7 +219,7 @@ template <>
 VesicleProblem<3>::VesicleProblem(const AllParameters &, const MPI_Comm communicator, const std::string &, bool)
   : communicator(communicator)
 {
-  throw UserError("Dimension = 3: the parts of the program are written for three dimensions, but the coupled solver "
+  throw UserError("Dimension = 3 is not available yet: the parts are written for three dimensions, but the coupled solver "
                   "needs an iterative flow solver first. Set Dimension = 2.");
 }
 template <>

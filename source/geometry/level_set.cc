@@ -139,9 +139,23 @@ std::vector<LevelSetCell<dim>> LevelSet<dim>::gather_band() const
 template <int dim>
 void LevelSet<dim>::shift(const double amount)
 {
+  // Not the other nodes: they are not set anew in each step, so that shifts would add up there, also those of
+  // rejected steps, until a sign changes.
+  const IndexSet &owned = dof_handler.locally_owned_dofs();
+  std::vector<bool> shifted(owned.n_elements(), is_in_band.empty());
+  std::vector<types::global_dof_index> dofs(fe.n_dofs_per_cell());
+  for (const auto &cell : dof_handler.active_cell_iterators())
+    if (!is_in_band.empty() && !cell->is_artificial() && is_in_band[cell->active_cell_index()])
+    {
+      cell->get_dof_indices(dofs);
+      for (const auto dof : dofs)
+        if (owned.is_element(dof))
+          shifted[owned.index_within_set(dof)] = true;
+    }
   phi.zero_out_ghost_values();
   for (unsigned int i = 0; i < phi.locally_owned_size(); ++i)
-    phi.local_element(i) += amount;
+    if (shifted[i])
+      phi.local_element(i) += amount;
   finish();
 }
 

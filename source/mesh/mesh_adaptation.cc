@@ -114,35 +114,34 @@ namespace Gemmule
       }
       return false;
     };
-    unsigned int n_flags = 0;
     for (const auto &cell : triangulation.active_cell_iterators())
       if (cell->is_locally_owned())
       {
         const Key k = key(cell);
         const int level = cell->level();
         if (has_needed_child(k, level))
-        {
           cell->set_refine_flag();
-          ++n_flags;
-        }
         else if (level > static_cast<int>(parameters.bulk_level) &&
                  (level >= static_cast<int>(to_keep.size()) || to_keep[level].count(k) == 0))
-        {
           cell->set_coarsen_flag();
-        }
       }
     // What survives 2:1 balance decides whether anything changes at all.
     triangulation.prepare_coarsening_and_refinement();
+    unsigned int n_refined = 0, n_coarsened = 0;
     for (const auto &cell : triangulation.active_cell_iterators())
-      if (cell->is_locally_owned() && (cell->refine_flag_set() || cell->coarsen_flag_set()))
-        ++n_flags;
-    if (Utilities::MPI::sum(n_flags, triangulation.get_communicator()) == 0)
+      if (cell->is_locally_owned())
+      {
+        n_refined += cell->refine_flag_set();
+        n_coarsened += cell->coarsen_flag_set();
+      }
+    n_refined = Utilities::MPI::sum(n_refined, triangulation.get_communicator());
+    n_coarsened = Utilities::MPI::sum(n_coarsened, triangulation.get_communicator());
+    if (n_refined + n_coarsened == 0)
       return false;
     const auto cells_before = triangulation.n_global_active_cells();
     triangulation.execute_coarsening_and_refinement();
     // Coarsening alone may be refused by neighbours again and again.
-    return triangulation.n_global_active_cells() != cells_before ||
-           Utilities::MPI::max(n_flags, triangulation.get_communicator()) > 0;
+    return n_refined > 0 || triangulation.n_global_active_cells() != cells_before;
   }
 
   template <int dim>
@@ -150,20 +149,13 @@ namespace Gemmule
   {
     bool changed = false;
     const unsigned int most_sweeps = 2 * (parameters.phase_boundary_level + parameters.membrane_level) + 4;
-    auto cells_before = triangulation.n_global_active_cells();
-    for (unsigned int i = 0; i < most_sweeps; ++i)
+    for (unsigned int i = 0; i < most_sweeps && sweep(samples); ++i)
     {
-      if (!sweep(samples))
-        break;
       changed = true;
-      const auto cells = triangulation.n_global_active_cells();
-      if (cells > parameters.largest_number_of_cells &&
+      if (triangulation.n_global_active_cells() > parameters.largest_number_of_cells &&
           std::max(parameters.membrane_level, parameters.phase_boundary_level) - n_lowered_levels >
             parameters.bulk_level + 1)
         ++n_lowered_levels;
-      if (cells == cells_before)
-        break;
-      cells_before = cells;
     }
     return changed;
   }

@@ -16,7 +16,7 @@ namespace
   constexpr double safety = 0.9;
   constexpr double order_of_local_error = 3.;
   // How fast an estimate that could not be reduced is forgotten, per step.
-  constexpr double fading = 0.95;
+  constexpr double fading = 0.99;
 } // namespace
 
 StepControl::StepControl(const Parameters::TimeStepping &parameters, const double start_time,
@@ -57,9 +57,9 @@ void StepControl::shrink(const double factor, const std::string &reason)
 
 bool StepControl::judge(const double estimate)
 {
-  // In units of what can be reached.
+  // Whether it is good enough is measured by what can be reached, the step by the part that depends on it.
   const double error = estimate / std::max(1., 1.5 * floor);
-  const double ideal = safety * std::pow(std::max(error, 1e-10), -1. / order_of_local_error);
+  const double ideal = safety * std::pow(std::max(estimate - floor, 1e-10), -1. / order_of_local_error);
   if (parameters.adaptive && error > 1.)
   {
     const bool falls = rejected_step == 0. || estimate < rejected_error * proposed / rejected_step;

@@ -155,7 +155,7 @@ TEST_F(BadParameterFile, DimensionFour)
 
 TEST_F(BadParameterFile, DimensionThreeIsToCome)
 {
-  expect_file_error("set Dimension = 3\n", {"Dimension = 3 is not available yet"});
+  expect_file_error("set Dimension = 3\n", {"Dimension = 3 is not available yet", "Set Dimension = 2"});
 }
 
 TEST_F(BadParameterFile, WrongBoolean)

@@ -58,8 +58,11 @@ public:
   double computed_time() const { return last_computed_time; }
   double last_step() const { return dt_previous; }
 
-  /** Limit C h Ca / max|sigma| of the explicit coupling, per unit of C. */
-  double capillary_time_step() const;
+  /**
+   * Limit C h Ca / max|sigma| of the explicit coupling, per unit of C, in the current (accepted) state: what a try
+   * computed, or left half done, says nothing about the next one.
+   */
+  double capillary_time_step() const { return current_capillary_step; }
 
   // What the last state that was computed is like, for output.
   const AllParameters &get_parameters() const { return parameters; }
@@ -85,10 +88,19 @@ private:
                                            const MembraneMotion<dim> *motion) const;
   void adapt_mesh(const MembraneProjection<dim> &membrane, const MembraneMotion<dim> *motion);
   void cut_mesh(bool keep_area);
+
+  /** How many cells at the walls there are, how many are inside, and how many inside or cut. */
+  struct WallCells
+  {
+    unsigned int all = 0, inside = 0, not_outside = 0;
+  };
+  WallCells count_wall_cells() const;
+  void check_initial_wall() const;
   void check_wall() const;
   bool membrane_touches_wall() const;
   /** @param old_velocity of the same material points one step ago; nullptr at the start */
   void solve_flow(double time, double dt, const CutCellVector<dim> *old_velocity);
+  double compute_capillary_time_step() const;
   MembraneSnapshot<dim> take_snapshot(double time, const std::vector<TransportedFields<dim>> &transported) const;
   StepErrors estimate_errors(double dt, const std::vector<TransportedFields<dim>> &transported,
                              const CutCellScalar<dim> &predicted_concentration) const;
@@ -117,5 +129,6 @@ private:
   double dt_preceding = 0.; ///< the one before
   double dt_trial = 0.;
   double last_computed_time = 0.;
+  double current_capillary_step = 0., trial_capillary_step = 0.;
 };
 } // namespace Gemmule

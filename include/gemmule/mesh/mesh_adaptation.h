@@ -48,6 +48,7 @@ namespace Gemmule
 
     NeededCells needed_cells(const Samples &samples, unsigned int layers) const;
     Key key(const typename Triangulation::cell_iterator &cell) const;
+    /** Refines and coarsens once, by at most one level. @return whether the mesh has changed. Collective. */
     bool sweep(const Samples &samples);
 
     Triangulation &triangulation;
