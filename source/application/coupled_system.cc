@@ -19,7 +19,8 @@ namespace
   constexpr double largest_distance_drift = 0.05;
   // The area is corrected to this relative accuracy: round-off of its quadrature.
   constexpr double area_tolerance = 1e-12;
-  // A step that is wrong by more than this part of the area has lost the membrane, and is no case for a correction.
+  // A step that is wrong by more than this part of the area has lost the membrane, and is no case for a
+  // correction.
   constexpr double largest_area_error = 0.05;
 
   /** Q2 nodal values as Q3 nodal values of the same polynomial. */
@@ -27,7 +28,8 @@ namespace
   std::array<T, TensorLagrange<dim, 3>::n> raise_degree(const std::array<T, TensorLagrange<dim, 2>::n> &u)
   {
     using Table = std::array<typename TensorLagrange<dim, 2>::Values, TensorLagrange<dim, 3>::n>;
-    static const Table table = [] {
+    static const Table table = []
+    {
       Table t;
       for (unsigned int i = 0; i < t.size(); ++i)
         TensorLagrange<dim, 2>::evaluate(TensorLagrange<dim, 3>::node(i), t[i]);
@@ -69,17 +71,22 @@ namespace
 
 template <int dim>
 CoupledSystem<dim>::CoupledSystem(const AllParameters &parameters_, const MPI_Comm communicator_)
-  : parameters(parameters_), communicator(communicator_),
-    triangulation(communicator, dealii::Triangulation<dim>::MeshSmoothing::none), origin([this] {
-      make_box_mesh(triangulation, parameters.domain, parameters.mesh.bulk_level);
-      return lower_corner<dim>(parameters.domain);
-    }()),
-    // Without the communicator: with it, every exception would be preceded by a banner on the screen.
-    timer_output(std::cout, TimerOutput::never, TimerOutput::cpu_and_wall_times),
-    boundary_velocity(make_function<dim>(parameters.domain.boundary_velocity, dim, "Domain/Boundary velocity")),
-    prescribed_tension(make_function<dim>(parameters.membrane.prescribed_tension, 1, "Membrane/Prescribed tension")),
-    model(parameters.membrane, parameters.regularisation), level_set(triangulation),
-    flow(triangulation, parameters.fluid, parameters.flow), adaptation(triangulation, parameters.mesh)
+    : parameters(parameters_), communicator(communicator_),
+      triangulation(communicator, dealii::Triangulation<dim>::MeshSmoothing::none),
+      origin(
+          [this]
+          {
+            make_box_mesh(triangulation, parameters.domain, parameters.mesh.bulk_level);
+            return lower_corner<dim>(parameters.domain);
+          }()),
+      // Without the communicator: with it, every exception would be preceded by a banner on the screen.
+      timer_output(std::cout, TimerOutput::never, TimerOutput::cpu_and_wall_times),
+      boundary_velocity(
+          make_function<dim>(parameters.domain.boundary_velocity, dim, "Domain/Boundary velocity")),
+      prescribed_tension(
+          make_function<dim>(parameters.membrane.prescribed_tension, 1, "Membrane/Prescribed tension")),
+      model(parameters.membrane, parameters.regularisation), level_set(triangulation),
+      flow(triangulation, parameters.fluid, parameters.flow), adaptation(triangulation, parameters.mesh)
 {
   if (parameters.membrane.tension_model == Parameters::TensionModel::phase_field)
     surface = std::make_unique<SurfaceSolver<dim>>(triangulation, model, parameters.surface);
@@ -101,7 +108,7 @@ void CoupledSystem<dim>::make_initial_mesh()
 {
   const auto shape = make_function<dim>(parameters.membrane.level_set, 1, "Membrane/Level set");
   const auto concentration =
-    make_function<dim>(parameters.membrane.initial_concentration, 1, "Membrane/Initial concentration");
+      make_function<dim>(parameters.membrane.initial_concentration, 1, "Membrane/Initial concentration");
   const auto total_concentration = make_function<dim>(parameters.membrane.initial_total_concentration, 1,
                                                       "Membrane/Initial total concentration");
 
@@ -122,10 +129,11 @@ void CoupledSystem<dim>::make_initial_mesh()
         }
       }
     if (Utilities::MPI::sum(n_crossed, communicator) == 0)
-      throw UserError("Membrane/Level set: '" + parameters.membrane.level_set + "' has no zero in the box: it is " +
-                      (Utilities::MPI::sum(n_inside, communicator) > 0 ? "negative" : "positive") +
-                      " everywhere. Give a function that is negative inside the vesicle and positive outside, "
-                      "for example x^2+2*y^2-0.25, or a finer 'Mesh/Bulk level' if the vesicle is tiny.");
+      throw UserError(
+          "Membrane/Level set: '" + parameters.membrane.level_set + "' has no zero in the box: it is " +
+          (Utilities::MPI::sum(n_inside, communicator) > 0 ? "negative" : "positive") +
+          " everywhere. Give a function that is negative inside the vesicle and positive outside, "
+          "for example x^2+2*y^2-0.25, or a finer 'Mesh/Bulk level' if the vesicle is tiny.");
     triangulation.execute_coarsening_and_refinement();
   }
 
@@ -137,7 +145,7 @@ void CoupledSystem<dim>::make_initial_mesh()
     geometry.reinit(level_set.get_dof_handler(), level_set.values());
     check_initial_wall();
     const auto patches = gather_patches(
-      geometry.cut_cells(), std::vector<MembraneFields<dim>>(geometry.cut_cells().size()), communicator);
+        geometry.cut_cells(), std::vector<MembraneFields<dim>>(geometry.cut_cells().size()), communicator);
     const MembraneProjection<dim> membrane(patches, origin);
     std::vector<MembraneSample<dim>> wanted;
     std::vector<Point<dim>> points;
@@ -158,8 +166,9 @@ void CoupledSystem<dim>::make_initial_mesh()
       for (const auto &p : points)
         if (total_concentration->value(p) <= 0.)
           throw ParameterError("Membrane/Initial total concentration",
-                               "'" + parameters.membrane.initial_total_concentration + "' is not positive at (" +
-                                 coordinates(p) + ") on the membrane. Give an expression that is positive there.");
+                               "'" + parameters.membrane.initial_total_concentration +
+                                   "' is not positive at (" + coordinates(p) +
+                                   ") on the membrane. Give an expression that is positive there.");
     }
     else
       check_finite(*prescribed_tension, points, "Membrane/Prescribed tension");
@@ -171,7 +180,7 @@ void CoupledSystem<dim>::make_initial_mesh()
   level_set.interpolate(*shape);
   geometry.reinit(level_set.get_dof_handler(), level_set.values());
   const auto patches = gather_patches(
-    geometry.cut_cells(), std::vector<MembraneFields<dim>>(geometry.cut_cells().size()), communicator);
+      geometry.cut_cells(), std::vector<MembraneFields<dim>>(geometry.cut_cells().size()), communicator);
   level_set.set_distance(MembraneProjection<dim>(patches, origin));
   geometry.reinit(level_set.get_dof_handler(), level_set.values());
   if (surface)
@@ -204,7 +213,8 @@ typename CoupledSystem<dim>::WallCells CoupledSystem<dim>::count_wall_cells() co
     if (cell->is_locally_owned() && cell->at_boundary())
     {
       ++count.all;
-      // Cut cells count as well: the flow needs whole cells of the outer fluid where the velocity is prescribed.
+      // Cut cells count as well: the flow needs whole cells of the outer fluid where the velocity is
+      // prescribed.
       count.not_outside += geometry.is_active(cell->active_cell_index(), 0);
       count.inside += geometry.location(cell->active_cell_index()) == CellLocation::inside;
     }
@@ -220,12 +230,15 @@ void CoupledSystem<dim>::check_initial_wall() const
   const WallCells count = count_wall_cells();
   const std::string expression = "Membrane/Level set: '" + parameters.membrane.level_set + "' ";
   if (count.inside == count.all)
-    throw UserError(expression + "is negative along all walls of the box, but has to be positive outside the vesicle. "
-                                 "Change its sign: -(" + parameters.membrane.level_set + ").");
-  if (count.not_outside > 0)
     throw UserError(expression +
-                    "describes a membrane that touches a wall of the box, comes closer to it than one cell, or leaves "
-                    "the box. Enlarge the box (Domain/Lower corner, Domain/Upper corner) or make the vesicle smaller.");
+                    "is negative along all walls of the box, but has to be positive outside the vesicle. "
+                    "Change its sign: -(" +
+                    parameters.membrane.level_set + ").");
+  if (count.not_outside > 0)
+    throw UserError(
+        expression +
+        "describes a membrane that touches a wall of the box, comes closer to it than one cell, or leaves "
+        "the box. Enlarge the box (Domain/Lower corner, Domain/Upper corner) or make the vesicle smaller.");
 }
 
 template <int dim>
@@ -254,7 +267,7 @@ std::vector<MembraneSample<dim>> CoupledSystem<dim>::samples(const MembraneProje
     sample.curvature = membrane.curvature(s);
     if (surface)
       sample.composition =
-        membrane.value(p, &Fields::concentration) / membrane.value(p, &Fields::total_concentration);
+          membrane.value(p, &Fields::concentration) / membrane.value(p, &Fields::total_concentration);
     result.push_back(sample);
     if (motion != nullptr)
     {
@@ -266,7 +279,8 @@ std::vector<MembraneSample<dim>> CoupledSystem<dim>::samples(const MembraneProje
 }
 
 template <int dim>
-void CoupledSystem<dim>::adapt_mesh(const MembraneProjection<dim> &membrane, const MembraneMotion<dim> *motion)
+void CoupledSystem<dim>::adapt_mesh(const MembraneProjection<dim> &membrane,
+                                    const MembraneMotion<dim> *motion)
 {
   bool changed = false;
   {
@@ -299,7 +313,8 @@ void CoupledSystem<dim>::cut_mesh(const bool keep_area)
     if (std::abs(excess) < area_tolerance * area_0)
       break;
     if (std::abs(excess) > largest_area_error * area_0)
-      throw SimulationError("The enclosed area changes by more than 5 % in one time step: the step is too long.");
+      throw SimulationError(
+          "The enclosed area changes by more than 5 % in one time step: the step is too long.");
     const double shift = excess / geometry.measure();
     level_set.shift(shift);
     last_area_correction += shift;
@@ -308,7 +323,8 @@ void CoupledSystem<dim>::cut_mesh(const bool keep_area)
 }
 
 template <int dim>
-void CoupledSystem<dim>::solve_flow(const double time, const double dt, const CutCellVector<dim> *old_velocity)
+void CoupledSystem<dim>::solve_flow(const double time, const double dt,
+                                    const CutCellVector<dim> *old_velocity)
 {
   if (surface)
     total_tension = surface->tension();
@@ -330,10 +346,10 @@ void CoupledSystem<dim>::solve_flow(const double time, const double dt, const Cu
   for (unsigned int c = 0; c < dilatational_modulus.size(); ++c)
     for (const auto &q : geometry.cut_cells()[c].surface_points)
       dilatational_modulus[c].push_back(
-        model.dilatational_modulus(TensorLagrange<dim, 2>::value(surface->total_concentration()[c], q)));
+          model.dilatational_modulus(TensorLagrange<dim, 2>::value(surface->total_concentration()[c], q)));
   const SemiImplicitTension<dim> semi_implicit{parameters.time_stepping.tension_implicitness * dt,
-                                               &tension_of_membrane, surface ? &dilatational_modulus : nullptr,
-                                               old_velocity};
+                                               &tension_of_membrane,
+                                               surface ? &dilatational_modulus : nullptr, old_velocity};
   {
     TimerOutput::Scope scope(timer_output, "flow: assembly and factorisation");
     flow.prepare(geometry, *boundary_velocity,
@@ -354,7 +370,8 @@ void CoupledSystem<dim>::solve_flow(const double time, const double dt, const Cu
 
 template <int dim>
 MembraneSnapshot<dim>
-CoupledSystem<dim>::take_snapshot(const double time, const std::vector<TransportedFields<dim>> &transported) const
+CoupledSystem<dim>::take_snapshot(const double time,
+                                  const std::vector<TransportedFields<dim>> &transported) const
 {
   const auto &cut_cells = geometry.cut_cells();
   std::vector<MembraneFields<dim>> fields(cut_cells.size());
@@ -388,7 +405,7 @@ typename CoupledSystem<dim>::StepErrors CoupledSystem<dim>::try_step(const doubl
   const double time = current.time + dt;
   const bool first = dt_previous == 0.;
   const BdfCoefficients bdf =
-    first ? BdfCoefficients::first_order() : BdfCoefficients::second_order(dt / dt_previous);
+      first ? BdfCoefficients::first_order() : BdfCoefficients::second_order(dt / dt_previous);
   const MembraneProjection<dim> membrane(current.patches, origin);
   const MembraneMotion<dim> motion(membrane, dt, dt_previous);
   dt_trial = dt;
@@ -423,10 +440,10 @@ typename CoupledSystem<dim>::StepErrors CoupledSystem<dim>::try_step(const doubl
       {
         const double f0 = transported[c].concentration[i], f1 = transported[c].previous_concentration[i],
                      f2 = transported[c].preceding_concentration[i];
-        predicted[c][i] = three_levels
-                            ? f0 * (dt - t1) * (dt - t2) / (t1 * t2) + f1 * dt * (dt - t2) / (t1 * (t1 - t2)) +
-                                f2 * dt * (dt - t1) / (t2 * (t2 - t1))
-                            : bdf.e1 * f0 + (first ? 0. : bdf.e2 * f1);
+        predicted[c][i] = three_levels ? f0 * (dt - t1) * (dt - t2) / (t1 * t2) +
+                                             f1 * dt * (dt - t2) / (t1 * (t1 - t2)) +
+                                             f2 * dt * (dt - t1) / (t2 * (t2 - t1))
+                                       : bdf.e1 * f0 + (first ? 0. : bdf.e2 * f1);
       }
     }
 
@@ -447,7 +464,8 @@ typename CoupledSystem<dim>::StepErrors CoupledSystem<dim>::try_step(const doubl
       if (!first)
       {
         const MembraneProjection<dim> previous_membrane(previous.patches, origin);
-        extended[1] = extend_along_normals(previous_membrane, &Fields::total_concentration, geometry.cut_cells());
+        extended[1] =
+            extend_along_normals(previous_membrane, &Fields::total_concentration, geometry.cut_cells());
         for (unsigned int c = 0; c < n_cells; ++c)
           for (unsigned int i = 0; i < Fields::n; ++i)
             predicted_total[c][i] = bdf.e1 * extended[0][c][i] + bdf.e2 * extended[1][c][i];
@@ -473,15 +491,17 @@ typename CoupledSystem<dim>::StepErrors
 CoupledSystem<dim>::estimate_errors(const double dt, const std::vector<TransportedFields<dim>> &transported,
                                     const CutCellScalar<dim> &predicted_concentration) const
 {
-  // Position: BDF2 with the velocity that came out instead of the extrapolated one differs by dt/a0 (u - u*), which
-  // is the leading part of the local error. Concentration: Milne's device on the quadratic predictor and BDF2, whose
-  // local errors are dt (dt + dt1)(dt + dt1 + dt2)/6 and dt^2 (dt + dt1)^2 / (6 (2 dt + dt1)) times f'''.
+  // Position: BDF2 with the velocity that came out instead of the extrapolated one differs by dt/a0 (u - u*),
+  // which is the leading part of the local error. Concentration: Milne's device on the quadratic predictor
+  // and BDF2, whose local errors are dt (dt + dt1)(dt + dt1 + dt2)/6 and dt^2 (dt + dt1)^2 / (6 (2 dt + dt1))
+  // times f'''.
   const double dt1 = dt_previous, dt2 = dt_preceding;
   const double a0 = dt1 > 0. ? (dt1 + 2. * dt) / (dt1 + dt) : 1.;
   double milne = 0.;
   if (dt2 > 0.)
   {
-    const double predictor = (dt + dt1) * (dt + dt1 + dt2), corrector = dt * (dt + dt1) * (dt + dt1) / (2. * dt + dt1);
+    const double predictor = (dt + dt1) * (dt + dt1 + dt2),
+                 corrector = dt * (dt + dt1) * (dt + dt1) / (2. * dt + dt1);
     milne = corrector / (predictor + corrector);
   }
   StepErrors errors;
@@ -501,8 +521,9 @@ CoupledSystem<dim>::estimate_errors(const double dt, const std::vector<Transport
         const double f = TensorLagrange<dim, 2>::value(surface->concentration()[c], q);
         finite = finite && std::isfinite(f);
         if (milne > 0.)
-          errors.composition = std::max(
-            errors.composition, milne * std::abs(f - TensorLagrange<dim, 3>::value(predicted_concentration[c], q)));
+          errors.composition =
+              std::max(errors.composition,
+                       milne * std::abs(f - TensorLagrange<dim, 3>::value(predicted_concentration[c], q)));
       }
     }
   }

@@ -14,7 +14,8 @@ using namespace dealii;
 
 namespace
 {
-  // Points that carry less than this part of the membrane are left out: their order along the curve is round-off.
+  // Points that carry less than this part of the membrane are left out: their order along the curve is
+  // round-off.
   constexpr double smallest_weight = 1e-12;
 
   /** One quadrature point, as it travels between ranks. */
@@ -87,7 +88,7 @@ namespace
         const unsigned int first = connectivity.order.size();
         for (unsigned int k = 0; k < curve.size(); ++k)
           connectivity.segments.push_back(
-            {{first + k, first + static_cast<unsigned int>((k + 1) % curve.size())}});
+              {{first + k, first + static_cast<unsigned int>((k + 1) % curve.size())}});
         connectivity.order.insert(connectivity.order.end(), curve.begin(), curve.end());
       }
     else
@@ -102,9 +103,9 @@ InterfaceSamples<dim> sample_membrane(const CoupledSystem<dim> &system)
 {
   auto all = gather_plain(local_samples(system), system.mesh().get_communicator());
   // the same order on any number of ranks
-  std::sort(all.begin(), all.end(), [](const auto &a, const auto &b) {
-    return std::lexicographical_compare(a.point, a.point + dim, b.point, b.point + dim);
-  });
+  std::sort(all.begin(), all.end(),
+            [](const auto &a, const auto &b)
+            { return std::lexicographical_compare(a.point, a.point + dim, b.point, b.point + dim); });
   std::vector<Point<dim>> points(all.size());
   std::vector<Tensor<1, dim>> normals(all.size());
   std::vector<double> weights(all.size());
@@ -175,7 +176,7 @@ StatisticsRow make_statistics(const CoupledSystem<dim> &system, const InterfaceS
   {
     row.components += segment[1] <= segment[0];
     row.phase_boundaries +=
-      (membrane.composition[segment[0]] < 0.5) != (membrane.composition[segment[1]] < 0.5);
+        (membrane.composition[segment[0]] < 0.5) != (membrane.composition[segment[1]] < 0.5);
   }
 
   if (const auto *const surface = system.get_surface())
@@ -198,7 +199,8 @@ StatisticsRow make_statistics(const CoupledSystem<dim> &system, const InterfaceS
       row.energy_surface += membrane.tension[i] * membrane.weights[i];
   const auto &arclength = system.get_parameters().arclength;
   if (arclength.model == Parameters::ArclengthModel::penalty)
-    row.energy_constraint = 0.5 * arclength.penalty * std::pow(row.arclength - system.reference_arclength(), 2);
+    row.energy_constraint =
+        0.5 * arclength.penalty * std::pow(row.arclength - system.reference_arclength(), 2);
   row.energy_total = row.energy_surface + row.energy_phase + row.energy_constraint + row.energy_bending;
   row.dissipation_viscous = flow.viscous_dissipation();
   row.max_velocity = flow.max_velocity();
@@ -217,10 +219,11 @@ void write_fields(const CoupledSystem<dim> &system, const double time, FieldWrit
   std::vector<std::string> names(dim, "velocity");
   names.push_back("pressure");
   std::vector<DataComponentInterpretation::DataComponentInterpretation> interpretation(
-    dim, DataComponentInterpretation::component_is_part_of_vector);
+      dim, DataComponentInterpretation::component_is_part_of_vector);
   interpretation.push_back(DataComponentInterpretation::component_is_scalar);
   data_out.add_data_vector(dof_handler, velocity_and_pressure, names, interpretation);
-  data_out.add_data_vector(system.get_level_set().get_dof_handler(), system.get_level_set().values(), "level_set");
+  data_out.add_data_vector(system.get_level_set().get_dof_handler(), system.get_level_set().values(),
+                           "level_set");
   Vector<float> level(system.mesh().n_active_cells()), subdomain(system.mesh().n_active_cells());
   for (const auto &cell : system.mesh().active_cell_iterators())
     if (cell->is_locally_owned())
@@ -234,9 +237,9 @@ void write_fields(const CoupledSystem<dim> &system, const double time, FieldWrit
   writer.write(data_out, time);
 }
 
-#define GEMMULE_INSTANTIATE(dim)                                                                                   \
-  template InterfaceSamples<dim> sample_membrane(const CoupledSystem<dim> &);                                      \
-  template StatisticsRow make_statistics(const CoupledSystem<dim> &, const InterfaceSamples<dim> &);               \
+#define GEMMULE_INSTANTIATE(dim)                                                                             \
+  template InterfaceSamples<dim> sample_membrane(const CoupledSystem<dim> &);                                \
+  template StatisticsRow make_statistics(const CoupledSystem<dim> &, const InterfaceSamples<dim> &);         \
   template void write_fields(const CoupledSystem<dim> &, double, FieldWriter<dim> &);
 GEMMULE_INSTANTIATE(2)
 GEMMULE_INSTANTIATE(3)

@@ -18,7 +18,8 @@ namespace
   /** Is @p time (hit exactly by the step control) one of the multiples of @p interval, or a listed time? */
   bool is_due(const double time, const double interval, const std::vector<double> &times)
   {
-    const auto same = [time](const double other) { return std::abs(time - other) <= 1e-9 * std::max(1., other); };
+    const auto same = [time](const double other)
+    { return std::abs(time - other) <= 1e-9 * std::max(1., other); };
     return (interval > 0. && same(interval * std::round(time / interval))) ||
            std::any_of(times.begin(), times.end(), same);
   }
@@ -35,10 +36,11 @@ namespace
 template <int dim>
 VesicleProblem<dim>::VesicleProblem(const AllParameters &parameters_, const MPI_Comm communicator_,
                                     const std::string &command_line_, const bool resume)
-  : parameters(parameters_), communicator(communicator_), command_line(command_line_)
+    : parameters(parameters_), communicator(communicator_), command_line(command_line_)
 {
   if (resume)
-    throw UserError("--resume: checkpoints are not available in this version. Start the run anew without it.");
+    throw UserError(
+        "--resume: checkpoints are not available in this version. Start the run anew without it.");
   // The case first: a mistake in it must not cost the results of an earlier run.
   system = std::make_unique<CoupledSystem<dim>>(parameters, communicator);
   system->initialise();
@@ -82,11 +84,11 @@ void VesicleProblem<dim>::announce() const
   const auto &mesh = system->mesh();
   log->info(std::string("Gemmule ") + GEMMULE_VERSION + " (" + GEMMULE_GIT_REVISION + "), " +
             std::to_string(Utilities::MPI::n_mpi_processes(communicator)) + " process(es): " + command_line);
-  log->info("results in " + directory->path() + "; " + std::to_string(mesh.n_global_active_cells()) + " cells, " +
-            std::to_string(system->get_flow().n_unknowns()) + " unknowns of the flow" +
+  log->info("results in " + directory->path() + "; " + std::to_string(mesh.n_global_active_cells()) +
+            " cells, " + std::to_string(system->get_flow().n_unknowns()) + " unknowns of the flow" +
             (system->get_surface() != nullptr
-               ? ", " + std::to_string(system->get_surface()->n_unknowns()) + " of the phases"
-               : ""));
+                 ? ", " + std::to_string(system->get_surface()->n_unknowns()) + " of the phases"
+                 : ""));
   if (system->get_surface() != nullptr)
     if (const auto warning = system->get_model().ill_posedness_warning())
       log->warn(*warning);
@@ -137,26 +139,28 @@ void VesicleProblem<dim>::make_step(StepControl &control)
     {
       ++n_rejected;
       control.fail(error.what());
-      log->info("step " + std::to_string(row.step + 1) + " at t = " + rounded(control.time()) + ", dt = " +
-                rounded(dt) + " failed and is repeated with half the size: " + error.what());
+      log->info("step " + std::to_string(row.step + 1) + " at t = " + rounded(control.time()) +
+                ", dt = " + rounded(dt) + " failed and is repeated with half the size: " + error.what());
       continue;
     }
     if (control.judge(std::max(error_shape, error_composition) / options.tolerance))
     {
       if (control.noise_floor() > 0.)
-        log->warn_once("noise floor", "at t = " + rounded(control.time()) + " the estimated local error (shape " +
-                                        rounded(error_shape) + ", composition " + rounded(error_composition) +
-                                        ") does not fall with the step size: it is one of the mesh, and tolerated. "
-                                        "Refine the mesh ('Mesh/Phase boundary level'), or loosen 'Time "
-                                        "stepping/Tolerance' = " +
-                                        rounded(options.tolerance) + ".");
+        log->warn_once("noise floor",
+                       "at t = " + rounded(control.time()) + " the estimated local error (shape " +
+                           rounded(error_shape) + ", composition " + rounded(error_composition) +
+                           ") does not fall with the step size: it is one of the mesh, and tolerated. "
+                           "Refine the mesh ('Mesh/Phase boundary level'), or loosen 'Time "
+                           "stepping/Tolerance' = " +
+                           rounded(options.tolerance) + ".");
       system->accept();
       return;
     }
     ++n_rejected;
-    log->info("step " + std::to_string(row.step + 1) + " at t = " + rounded(control.time()) + ", dt = " +
-              rounded(dt) + " rejected: error of the shape " + rounded(error_shape) + ", of the composition " +
-              rounded(error_composition) + ", tolerance " + rounded(options.tolerance));
+    log->info("step " + std::to_string(row.step + 1) + " at t = " + rounded(control.time()) +
+              ", dt = " + rounded(dt) + " rejected: error of the shape " + rounded(error_shape) +
+              ", of the composition " + rounded(error_composition) + ", tolerance " +
+              rounded(options.tolerance));
   }
 }
 
@@ -174,23 +178,25 @@ void VesicleProblem<dim>::report()
   row.time_error_composition = error_composition;
   if (row.step > 0)
   {
-    const auto dissipation = [](const StatisticsRow &r) { return r.dissipation_viscous + r.dissipation_phase; };
+    const auto dissipation = [](const StatisticsRow &r)
+    { return r.dissipation_viscous + r.dissipation_phase; };
     const double dissipated = 0.5 * row.time_step_size * (dissipation(row) + dissipation(previous_row));
     row.energy_balance_error =
-      (row.energy_total - previous_row.energy_total + dissipated) / std::max(dissipated, 1e-300);
+        (row.energy_total - previous_row.energy_total + dissipated) / std::max(dissipated, 1e-300);
   }
   statistics->write(row);
 
   if (row.tension_min < 0.)
-    log->warn_once("negative tension",
-                   "the tension is negative on a part of the membrane since t = " + rounded(row.time) + " (minimum " +
-                     rounded(row.tension_min) +
-                     "). Without bending stiffness short waves of the shape then grow at the rate |sigma| k / 4: "
-                     "wrinkles get the wavelength of the mesh.");
+    log->warn_once(
+        "negative tension",
+        "the tension is negative on a part of the membrane since t = " + rounded(row.time) + " (minimum " +
+            rounded(row.tension_min) +
+            "). Without bending stiffness short waves of the shape then grow at the rate |sigma| k / 4: "
+            "wrinkles get the wavelength of the mesh.");
   if (system->lowered_levels() > 0)
     log->warn_once("too many cells", "the mesh needs more than 'Mesh/Largest number of cells' = " +
-                                       std::to_string(parameters.mesh.largest_number_of_cells) +
-                                       " cells; the finest level is lowered.");
+                                         std::to_string(parameters.mesh.largest_number_of_cells) +
+                                         " cells; the finest level is lowered.");
 }
 
 template <int dim>
@@ -209,11 +215,12 @@ void VesicleProblem<dim>::write_output_if_due(const bool at_end)
 template <int dim>
 void VesicleProblem<dim>::save_last_state(const std::string &reason)
 {
-  // The mesh already belongs to the step that failed; the membrane of the last accepted step is kept as samples.
+  // The mesh already belongs to the step that failed; the membrane of the last accepted step is kept as
+  // samples.
   if (!membrane_is_written)
     interface_writer->write(*membrane);
-  log->info("stopped at t = " + rounded(row.time) + " after " + std::to_string(row.step) + " steps: " + reason +
-            " The membrane of the last accepted step is in interface.h5.");
+  log->info("stopped at t = " + rounded(row.time) + " after " + std::to_string(row.step) +
+            " steps: " + reason + " The membrane of the last accepted step is in interface.h5.");
 }
 
 template <int dim>
@@ -239,10 +246,12 @@ template class VesicleProblem<2>;
 template void check_case<2>(const AllParameters &, MPI_Comm);
 
 template <>
-VesicleProblem<3>::VesicleProblem(const AllParameters &, const MPI_Comm communicator, const std::string &, bool)
-  : communicator(communicator)
+VesicleProblem<3>::VesicleProblem(const AllParameters &, const MPI_Comm communicator, const std::string &,
+                                  bool)
+    : communicator(communicator)
 {
-  throw UserError("Dimension = 3 is not available yet: the parts are written for three dimensions, but the coupled solver "
+  throw UserError("Dimension = 3 is not available yet: the parts are written for three dimensions, but the "
+                  "coupled solver "
                   "needs an iterative flow solver first. Set Dimension = 2.");
 }
 template <>

@@ -22,8 +22,8 @@ void SemiImplicitTension<dim>::add_matrix(const CutGeometry<dim> &geometry, cons
     std::array<std::array<Tensor<2, dim>, nv>, nv> stiffness{};
     for (unsigned int q = 0; q < cells[k].surface_weights.size(); ++q)
     {
-      const double weight = coefficient / capillary_number * cells[k].surface_weights[q] *
-                            std::max((*tension)[k][q], 0.);
+      const double weight =
+          coefficient / capillary_number * cells[k].surface_weights[q] * std::max((*tension)[k][q], 0.);
       const double dilatational_weight =
           dilatational_modulus != nullptr
               ? coefficient / capillary_number * cells[k].surface_weights[q] * (*dilatational_modulus)[k][q]
@@ -68,8 +68,8 @@ void SemiImplicitTension<dim>::add_rhs(const CutGeometry<dim> &geometry, const M
     std::array<Tensor<1, dim>, nv> sum{};
     for (unsigned int q = 0; q < cells[k].surface_weights.size(); ++q)
     {
-      const double weight = coefficient / capillary_number * cells[k].surface_weights[q] *
-                            std::max((*tension)[k][q], 0.);
+      const double weight =
+          coefficient / capillary_number * cells[k].surface_weights[q] * std::max((*tension)[k][q], 0.);
       const double dilatational_weight =
           dilatational_modulus != nullptr
               ? coefficient / capillary_number * cells[k].surface_weights[q] * (*dilatational_modulus)[k][q]

@@ -10,114 +10,116 @@
 
 namespace Gemmule
 {
-  using namespace dealii;
+using namespace dealii;
 
-  namespace
+namespace
+{
+  constexpr unsigned int none = static_cast<unsigned int>(-1);
+
+  /** The nearest point ahead of point @p i among @p candidates, or none. */
+  unsigned int nearest_ahead(const unsigned int i, const std::vector<unsigned int> &candidates,
+                             const std::vector<Point<2>> &points, const std::vector<Tensor<1, 2>> &normals)
   {
-    constexpr unsigned int none = static_cast<unsigned int>(-1);
-
-    /** The nearest point ahead of point @p i among @p candidates, or none. */
-    unsigned int nearest_ahead(const unsigned int i, const std::vector<unsigned int> &candidates,
-                               const std::vector<Point<2>> &points, const std::vector<Tensor<1, 2>> &normals)
+    const Tensor<1, 2> tangent({-normals[i][1], normals[i][0]});
+    double best = std::numeric_limits<double>::max();
+    unsigned int nearest = none;
+    for (const unsigned int j : candidates)
     {
-      const Tensor<1, 2> tangent({-normals[i][1], normals[i][0]});
-      double best = std::numeric_limits<double>::max();
-      unsigned int nearest = none;
-      for (const unsigned int j : candidates)
+      const Tensor<1, 2> difference = points[j] - points[i];
+      const double along = difference * tangent, across = std::abs(difference * normals[i]);
+      if (j == i || along <= 0. || across > along || normals[i] * normals[j] <= 0.)
+        continue;
+      const double distance = difference.norm_square();
+      if (distance < best)
       {
-        const Tensor<1, 2> difference = points[j] - points[i];
-        const double along = difference * tangent, across = std::abs(difference * normals[i]);
-        if (j == i || along <= 0. || across > along || normals[i] * normals[j] <= 0.)
-          continue;
-        const double distance = difference.norm_square();
-        if (distance < best)
-        {
-          best = distance;
-          nearest = j;
-        }
+        best = distance;
+        nearest = j;
       }
-      return nearest;
     }
-  } // namespace
-
-  std::vector<std::vector<unsigned int>> order_closed_curves(const std::vector<Point<2>> &points,
-                                                             const std::vector<Tensor<1, 2>> &normals,
-                                                             const std::vector<double> &spacing)
-  {
-    AssertDimension(points.size(), normals.size());
-    AssertDimension(points.size(), spacing.size());
-    const unsigned int n = points.size();
-    std::vector<std::vector<unsigned int>> curves;
-    if (n == 0)
-      return curves;
-
-    const double bin_size = 3. * *std::max_element(spacing.begin(), spacing.end());
-    const auto bin_of = [&](const Point<2> &p) {
-      return std::make_pair(static_cast<std::int32_t>(std::floor(p[0] / bin_size)),
-                            static_cast<std::int32_t>(std::floor(p[1] / bin_size)));
-    };
-    const auto key = [](const std::int32_t a, const std::int32_t b) {
-      return (static_cast<std::uint64_t>(static_cast<std::uint32_t>(a)) << 32) | static_cast<std::uint32_t>(b);
-    };
-    std::unordered_map<std::uint64_t, std::vector<unsigned int>> bins;
-    for (unsigned int i = 0; i < n; ++i)
-    {
-      const auto b = bin_of(points[i]);
-      bins[key(b.first, b.second)].push_back(i);
-    }
-
-    std::vector<unsigned int> successor(n, none);
-    std::vector<unsigned int> n_predecessors(n, 0);
-    std::vector<unsigned int> candidates;
-    for (unsigned int i = 0; i < n; ++i)
-    {
-      candidates.clear();
-      const auto b = bin_of(points[i]);
-      for (int dx = -1; dx <= 1; ++dx)
-        for (int dy = -1; dy <= 1; ++dy)
-        {
-          const auto bin = bins.find(key(b.first + dx, b.second + dy));
-          if (bin != bins.end())
-            candidates.insert(candidates.end(), bin->second.begin(), bin->second.end());
-        }
-      successor[i] = nearest_ahead(i, candidates, points, normals);
-      if (successor[i] != none)
-        ++n_predecessors[successor[i]];
-    }
-
-    // Chains that begin nowhere first (they occur where the curve is not resolved), then the closed ones.
-    std::vector<bool> visited(n, false);
-    const auto follow = [&](unsigned int i) {
-      curves.emplace_back();
-      while (i != none && !visited[i])
-      {
-        visited[i] = true;
-        curves.back().push_back(i);
-        i = successor[i];
-      }
-    };
-    for (unsigned int i = 0; i < n; ++i)
-      if (!visited[i] && n_predecessors[i] > 0)
-        follow(i);
-    // A point that nothing leads to is put behind its nearest neighbour.
-    for (unsigned int i = 0; i < n; ++i)
-      if (!visited[i])
-      {
-        double best = std::numeric_limits<double>::max();
-        std::pair<unsigned int, unsigned int> place(none, 0);
-        for (unsigned int c = 0; c < curves.size(); ++c)
-          for (unsigned int k = 0; k < curves[c].size(); ++k)
-            if (const double distance = points[i].distance_square(points[curves[c][k]]); distance < best)
-            {
-              best = distance;
-              place = {c, k};
-            }
-        visited[i] = true;
-        if (place.first == none)
-          curves.push_back({i});
-        else
-          curves[place.first].insert(curves[place.first].begin() + place.second + 1, i);
-      }
-    return curves;
+    return nearest;
   }
+} // namespace
+
+std::vector<std::vector<unsigned int>> order_closed_curves(const std::vector<Point<2>> &points,
+                                                           const std::vector<Tensor<1, 2>> &normals,
+                                                           const std::vector<double> &spacing)
+{
+  AssertDimension(points.size(), normals.size());
+  AssertDimension(points.size(), spacing.size());
+  const unsigned int n = points.size();
+  std::vector<std::vector<unsigned int>> curves;
+  if (n == 0)
+    return curves;
+
+  const double bin_size = 3. * *std::max_element(spacing.begin(), spacing.end());
+  const auto bin_of = [&](const Point<2> &p)
+  {
+    return std::make_pair(static_cast<std::int32_t>(std::floor(p[0] / bin_size)),
+                          static_cast<std::int32_t>(std::floor(p[1] / bin_size)));
+  };
+  const auto key = [](const std::int32_t a, const std::int32_t b) {
+    return (static_cast<std::uint64_t>(static_cast<std::uint32_t>(a)) << 32) | static_cast<std::uint32_t>(b);
+  };
+  std::unordered_map<std::uint64_t, std::vector<unsigned int>> bins;
+  for (unsigned int i = 0; i < n; ++i)
+  {
+    const auto b = bin_of(points[i]);
+    bins[key(b.first, b.second)].push_back(i);
+  }
+
+  std::vector<unsigned int> successor(n, none);
+  std::vector<unsigned int> n_predecessors(n, 0);
+  std::vector<unsigned int> candidates;
+  for (unsigned int i = 0; i < n; ++i)
+  {
+    candidates.clear();
+    const auto b = bin_of(points[i]);
+    for (int dx = -1; dx <= 1; ++dx)
+      for (int dy = -1; dy <= 1; ++dy)
+      {
+        const auto bin = bins.find(key(b.first + dx, b.second + dy));
+        if (bin != bins.end())
+          candidates.insert(candidates.end(), bin->second.begin(), bin->second.end());
+      }
+    successor[i] = nearest_ahead(i, candidates, points, normals);
+    if (successor[i] != none)
+      ++n_predecessors[successor[i]];
+  }
+
+  // Chains that begin nowhere first (they occur where the curve is not resolved), then the closed ones.
+  std::vector<bool> visited(n, false);
+  const auto follow = [&](unsigned int i)
+  {
+    curves.emplace_back();
+    while (i != none && !visited[i])
+    {
+      visited[i] = true;
+      curves.back().push_back(i);
+      i = successor[i];
+    }
+  };
+  for (unsigned int i = 0; i < n; ++i)
+    if (!visited[i] && n_predecessors[i] > 0)
+      follow(i);
+  // A point that nothing leads to is put behind its nearest neighbour.
+  for (unsigned int i = 0; i < n; ++i)
+    if (!visited[i])
+    {
+      double best = std::numeric_limits<double>::max();
+      std::pair<unsigned int, unsigned int> place(none, 0);
+      for (unsigned int c = 0; c < curves.size(); ++c)
+        for (unsigned int k = 0; k < curves[c].size(); ++k)
+          if (const double distance = points[i].distance_square(points[curves[c][k]]); distance < best)
+          {
+            best = distance;
+            place = {c, k};
+          }
+      visited[i] = true;
+      if (place.first == none)
+        curves.push_back({i});
+      else
+        curves[place.first].insert(curves[place.first].begin() + place.second + 1, i);
+    }
+  return curves;
+}
 } // namespace Gemmule

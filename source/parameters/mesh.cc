@@ -39,10 +39,11 @@ void Mesh::add_parameters(dealii::ParameterHandler &prm)
       "Largest number of time steps from one remeshing to the next. The mesh is also adapted whenever the "
       "membrane has used up its layers.",
       Range::at_least(1));
-  section.add("Largest number of cells", largest_number_of_cells,
-              "When the mesh gets more cells than this, its finest level is lowered by one, with a warning and for "
-              "the rest of the run, though never down to the bulk level.",
-              Range::at_least(1));
+  section.add(
+      "Largest number of cells", largest_number_of_cells,
+      "When the mesh gets more cells than this, its finest level is lowered by one, with a warning and for "
+      "the rest of the run, though never down to the bulk level.",
+      Range::at_least(1));
 }
 
 void Mesh::check() const

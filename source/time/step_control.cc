@@ -21,7 +21,7 @@ namespace
 
 StepControl::StepControl(const Parameters::TimeStepping &parameters, const double start_time,
                          std::vector<double> stops_)
-  : parameters(parameters), now(start_time), stops(std::move(stops_)), wanted(parameters.initial_step)
+    : parameters(parameters), now(start_time), stops(std::move(stops_)), wanted(parameters.initial_step)
 {
   Assert(!stops.empty(), dealii::ExcMessage("There must be an end."));
   std::sort(stops.begin(), stops.end());
@@ -47,9 +47,9 @@ void StepControl::shrink(const double factor, const std::string &reason)
   if (proposed <= parameters.smallest_step * (1. + same))
   {
     std::ostringstream message;
-    message << "The time step at t = " << now << " would have to be smaller than 'Smallest time step' = "
-            << parameters.smallest_step << ": " << reason
-            << " Refine the mesh, or loosen 'Time stepping/Tolerance'.";
+    message << "The time step at t = " << now
+            << " would have to be smaller than 'Smallest time step' = " << parameters.smallest_step << ": "
+            << reason << " Refine the mesh, or loosen 'Time stepping/Tolerance'.";
     throw SimulationError(message.str());
   }
   wanted = std::max(factor * proposed, parameters.smallest_step);

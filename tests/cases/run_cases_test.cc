@@ -281,3 +281,20 @@ TEST(TwoProcesses, GiveTheStatisticsOfOne)
   for (unsigned int i = 0; i < points_one.size(); ++i)
     EXPECT_NEAR(points_one[i], points_two[i], 1e-8);
 }
+
+TEST(FailingRun, EndsWithCodeTwoAndKeepsTheLastAcceptedStep)
+{
+  const TemporaryDirectory directory;
+  // A tolerance that no step can meet, and hardly any room to shrink.
+  const auto result =
+      run_gemmule(directory, "'" + std::string(GEMMULE_SOURCE_DIRECTORY) +
+                                 "/parameters/verification/ellipse_constant_tension.prm' --output out "
+                                 "--set 'Time stepping/Tolerance=1e-14' "
+                                 "--set 'Time stepping/Smallest time step=9e-4'");
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_NE(result.err.find("Smallest time step"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("times the tolerance"), std::string::npos) << result.err;
+  EXPECT_TRUE(std::filesystem::exists(directory.path / "out" / "interface.h5"));
+  EXPECT_NE(directory.read("out/log.txt").find("stopped at t = 0"), std::string::npos);
+  EXPECT_NE(directory.read("out/statistics.csv").find("\n0,0,"), std::string::npos);
+}

@@ -1,10 +1,9 @@
 #include <gemmule/parameters/errors.h>
 #include <gemmule/time/step_control.h>
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
+#include <gtest/gtest.h>
 #include <limits>
 
 namespace Gemmule
@@ -84,7 +83,8 @@ TEST(StepControl, HalvesAfterAFailureAndGivesUpAtTheSmallestStep)
   double step = control.propose(unlimited);
   control.fail("no convergence.");
   EXPECT_DOUBLE_EQ(control.propose(unlimited), 0.5 * step);
-  const auto go_on = [&] {
+  const auto go_on = [&]
+  {
     for (unsigned int i = 0; i < 20; ++i)
     {
       control.propose(unlimited);

@@ -18,10 +18,10 @@
 namespace Gemmule
 {
 /**
- * Membrane, surface phases and flow on the adaptive mesh, and one time step of them (design section 2, "Coupling and
- * time"): the membrane moves with the extrapolated velocity, then the concentrations follow on the new membrane, then
- * tension and Stokes flow. The accepted states are snapshots that do not depend on the mesh; a step that is
- * rejected leaves them untouched.
+ * Membrane, surface phases and flow on the adaptive mesh, and one time step of them (design section 2,
+ * "Coupling and time"): the membrane moves with the extrapolated velocity, then the concentrations follow on
+ * the new membrane, then tension and Stokes flow. The accepted states are snapshots that do not depend on the
+ * mesh; a step that is rejected leaves them untouched.
  */
 template <int dim>
 class CoupledSystem
@@ -45,7 +45,8 @@ public:
   };
 
   /**
-   * Computes the state at time() + dt. Throws SimulationError when that is impossible; accept() or another try follows.
+   * Computes the state at time() + dt. Throws SimulationError when that is impossible; accept() or another
+   * try follows.
    */
   StepErrors try_step(double dt);
 
@@ -54,13 +55,14 @@ public:
 
   /** Time of the current (accepted) state. */
   double time() const { return current.time; }
-  /** Time of the last state that was computed, accepted or not: the time of all that the functions below return. */
+  /** Time of the last state that was computed, accepted or not: the time of all that the functions below
+   * return. */
   double computed_time() const { return last_computed_time; }
   double last_step() const { return dt_previous; }
 
   /**
-   * Limit C h Ca / max|sigma| of the explicit coupling, per unit of C, in the current (accepted) state: what a try
-   * computed, or left half done, says nothing about the next one.
+   * Limit C h Ca / max|sigma| of the explicit coupling, per unit of C, in the current (accepted) state: what
+   * a try computed, or left half done, says nothing about the next one.
    */
   double capillary_time_step() const { return current_capillary_step; }
 
@@ -101,7 +103,8 @@ private:
   /** @param old_velocity of the same material points one step ago; nullptr at the start */
   void solve_flow(double time, double dt, const CutCellVector<dim> *old_velocity);
   double compute_capillary_time_step() const;
-  MembraneSnapshot<dim> take_snapshot(double time, const std::vector<TransportedFields<dim>> &transported) const;
+  MembraneSnapshot<dim> take_snapshot(double time,
+                                      const std::vector<TransportedFields<dim>> &transported) const;
   StepErrors estimate_errors(double dt, const std::vector<TransportedFields<dim>> &transported,
                              const CutCellScalar<dim> &predicted_concentration) const;
 

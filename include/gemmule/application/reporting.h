@@ -8,15 +8,15 @@
 namespace Gemmule
 {
 /**
- * All quadrature points of the membrane with the values there, complete on every rank; in 2D ordered along its closed
- * curves. Collective.
+ * All quadrature points of the membrane with the values there, complete on every rank; in 2D ordered along
+ * its closed curves. Collective.
  */
 template <int dim>
 InterfaceSamples<dim> sample_membrane(const CoupledSystem<dim> &system);
 
 /**
- * The figures of the last state that was computed. Leaves open what only the time loop knows: step number, wall time,
- * error estimates, energy balance. Collective.
+ * The figures of the last state that was computed. Leaves open what only the time loop knows: step number,
+ * wall time, error estimates, energy balance. Collective.
  */
 template <int dim>
 StatisticsRow make_statistics(const CoupledSystem<dim> &system, const InterfaceSamples<dim> &membrane);

@@ -66,7 +66,8 @@ private:
   unsigned int n_rejected = 0;
 };
 
-/** Checks what needs more than the parameters themselves: the initial membrane. @throws UserError. Collective. */
+/** Checks what needs more than the parameters themselves: the initial membrane. @throws UserError.
+ * Collective. */
 template <int dim>
 void check_case(const AllParameters &parameters, MPI_Comm communicator);
 } // namespace Gemmule

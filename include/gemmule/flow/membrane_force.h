@@ -47,8 +47,8 @@ public:
   double integrate_flux(const Velocity &velocity) const;
 
   /** (I - n n^T) grad phi_i at point @p q of cut cell @p k, for the lexicographic Q2 nodes i. */
-  const std::array<dealii::Tensor<1, dim>, Layout::n_velocity_nodes> &tangential_gradient(unsigned int k,
-                                                                                          unsigned int q) const
+  const std::array<dealii::Tensor<1, dim>, Layout::n_velocity_nodes> &
+  tangential_gradient(unsigned int k, unsigned int q) const
   {
     return tangential_gradients[first_point[k] + q];
   }

@@ -10,10 +10,11 @@ namespace Gemmule
  *   (S dt / Ca) int_Gamma max(sigma, 0) P grad(w) n . P grad <v> n + E div_s w div_s <v>,
  *   w = <u> - u_old,  P = I - n n^T,
  *
- * to the flow problem: S dt times the linearised stiffness of the tension against normal displacements and of the
- * membrane against dilatation. u_old is the velocity of the same material points one step ago, so that the term is
- * O(dt^2) and the scheme stays second order. In the linear model (decay rate lambda, BDF2 with extrapolated velocity) the coupling is stable for dt lambda <
- * 4/3 with S = 0, < 6.7 with S = 0.3 and for every step with S >= 0.4 (doc/method.md).
+ * to the flow problem: S dt times the linearised stiffness of the tension against normal displacements and of
+ * the membrane against dilatation. u_old is the velocity of the same material points one step ago, so that
+ * the term is O(dt^2) and the scheme stays second order. In the linear model (decay rate lambda, BDF2 with
+ * extrapolated velocity) the coupling is stable for dt lambda < 4/3 with S = 0, < 6.7 with S = 0.3 and for
+ * every step with S >= 0.4 (doc/method.md).
  */
 template <int dim>
 struct SemiImplicitTension

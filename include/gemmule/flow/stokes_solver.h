@@ -41,10 +41,9 @@ public:
   /**
    * Assembles and factorises. @p geometry must stay unchanged as long as solve() and the results are used.
    * @param boundary_velocity u_infinity, dim components, its time set by the caller
-   * @param semi_implicit damping of the fast shape modes, nullptr for none; what it points to must stay as long as
-   * solve() is used
-   * Throws SimulationError (membrane at the boundary, factorisation) and UserError (u_infinity with
-   * net flux).
+   * @param semi_implicit damping of the fast shape modes, nullptr for none; what it points to must stay as
+   * long as solve() is used Throws SimulationError (membrane at the boundary, factorisation) and UserError
+   * (u_infinity with net flux).
    */
   void prepare(const CutGeometry<dim> &geometry, const dealii::Function<dim> &boundary_velocity,
                const SemiImplicitTension<dim> *semi_implicit = nullptr);

@@ -7,15 +7,15 @@
 
 namespace Gemmule
 {
-  /**
-   * Orders points that lie on closed curves in the plane. The successor of a point is the nearest one ahead of it, in
-   * the direction that keeps the inside on the left (counter-clockwise for a circle), within a cone of 45 degrees and
-   * with a similar normal.
-   *
-   * @param spacing for each point a length comparable to the distance to its neighbours (its quadrature weight)
-   * @return one list of indices per curve; each point occurs once
-   */
-  std::vector<std::vector<unsigned int>> order_closed_curves(const std::vector<dealii::Point<2>> &points,
-                                                             const std::vector<dealii::Tensor<1, 2>> &normals,
-                                                             const std::vector<double> &spacing);
+/**
+ * Orders points that lie on closed curves in the plane. The successor of a point is the nearest one ahead of
+ * it, in the direction that keeps the inside on the left (counter-clockwise for a circle), within a cone of
+ * 45 degrees and with a similar normal.
+ *
+ * @param spacing for each point a length comparable to the distance to its neighbours (its quadrature weight)
+ * @return one list of indices per curve; each point occurs once
+ */
+std::vector<std::vector<unsigned int>> order_closed_curves(const std::vector<dealii::Point<2>> &points,
+                                                           const std::vector<dealii::Tensor<1, 2>> &normals,
+                                                           const std::vector<double> &spacing);
 } // namespace Gemmule

@@ -27,9 +27,9 @@ struct MembraneFields
   Vector previous_velocity{}; ///< <u> of the previous time level at X
   Scalar previous_concentration{};  ///< f of the previous time level at X
   Scalar preceding_concentration{}; ///< f of the level before that, at the same material point
-  Scalar concentration{};     ///< f
-  Scalar total_concentration{}; ///< f-bar
-  Scalar chemical_potential{};  ///< mu
+  Scalar concentration{};           ///< f
+  Scalar total_concentration{};     ///< f-bar
+  Scalar chemical_potential{};      ///< mu
 };
 
 /** One cut cell of the membrane: geometry and fields. */

@@ -15,13 +15,13 @@ struct TransportedFields
   using Scalar = typename MembraneFields<dim>::Scalar;
   using Vector = typename MembraneFields<dim>::Vector;
 
-  Vector advecting_velocity{};  ///< u*, the velocity that moved the membrane
-  Vector displacement{};        ///< x - X
-  Vector previous_velocity{};   ///< <u>^n(X)
-  Scalar concentration{};          ///< f^n(X)
-  Scalar previous_concentration{}; ///< f^{n-1} at the same material point
+  Vector advecting_velocity{};      ///< u*, the velocity that moved the membrane
+  Vector displacement{};            ///< x - X
+  Vector previous_velocity{};       ///< <u>^n(X)
+  Scalar concentration{};           ///< f^n(X)
+  Scalar previous_concentration{};  ///< f^{n-1} at the same material point
   Scalar preceding_concentration{}; ///< f^{n-2} at the same material point
-  Scalar total_concentration{}; ///< f-bar^n(X)
+  Scalar total_concentration{};     ///< f-bar^n(X)
 };
 
 /** The fields of @p motion at the nodes of the given cut cells. */

@@ -7,12 +7,12 @@
 
 namespace Gemmule
 {
-  /** The box [lower, upper] as a mesh of cubes; its shortest edge has 2^level cells. Throws UserError. */
-  template <int dim>
-  void make_box_mesh(dealii::parallel::distributed::Triangulation<dim> &triangulation,
-                     const Parameters::Domain &domain, unsigned int level);
+/** The box [lower, upper] as a mesh of cubes; its shortest edge has 2^level cells. Throws UserError. */
+template <int dim>
+void make_box_mesh(dealii::parallel::distributed::Triangulation<dim> &triangulation,
+                   const Parameters::Domain &domain, unsigned int level);
 
-  /** Lower corner of the box. */
-  template <int dim>
-  dealii::Point<dim> lower_corner(const Parameters::Domain &domain);
+/** Lower corner of the box. */
+template <int dim>
+dealii::Point<dim> lower_corner(const Parameters::Domain &domain);
 } // namespace Gemmule

@@ -48,8 +48,9 @@ public:
   double tension(double f, double fbar, double chemical_potential, double squared_surface_gradient_f) const;
 
   /**
-   * E = -d sigma / d log(length) of the regularisation, for a stretch that keeps the composition: K fbar^2 with
-   * `compressibility`, otherwise 0. The default energies depend on the composition alone and add nothing.
+   * E = -d sigma / d log(length) of the regularisation, for a stretch that keeps the composition: K fbar^2
+   * with `compressibility`, otherwise 0. The default energies depend on the composition alone and add
+   * nothing.
    */
   double dilatational_modulus(double fbar) const;
 

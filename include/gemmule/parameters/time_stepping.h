@@ -20,7 +20,8 @@ struct TimeStepping
   double largest_growth = 1.5;
   /** C of dt <= C h Ca / max|sigma|. */
   double interface_courant_number = 2.;
-  /** S, part of the tension's stiffness against normal displacements that the flow takes implicitly; 0: none. */
+  /** S, part of the tension's stiffness against normal displacements that the flow takes implicitly; 0: none.
+   */
   double tension_implicitness = 0.4;
 
   void add_parameters(dealii::ParameterHandler &prm);

@@ -8,8 +8,9 @@
 namespace Gemmule
 {
 /**
- * Chooses the time steps: an elementary controller on the local error of a second-order scheme, limits, and the times
- * that have to be hit exactly. Does no computation of its own, so that it can be tested without a simulation.
+ * Chooses the time steps: an elementary controller on the local error of a second-order scheme, limits, and
+ * the times that have to be hit exactly. Does no computation of its own, so that it can be tested without a
+ * simulation.
  */
 class StepControl
 {
@@ -23,8 +24,8 @@ public:
   bool finished() const { return now >= stops.back(); }
 
   /**
-   * Size of the next step: what the controller wants, at most @p stability_limit, cut so that it ends on the next stop
-   * (or spreads what is left over two steps, to avoid a tiny last one).
+   * Size of the next step: what the controller wants, at most @p stability_limit, cut so that it ends on the
+   * next stop (or spreads what is left over two steps, to avoid a tiny last one).
    */
   double propose(double stability_limit);
 
@@ -33,8 +34,8 @@ public:
    * @return whether the step is accepted; time() has then advanced. Otherwise propose() again.
    *
    * An estimate that does not fall in proportion when a step is repeated smaller is not an error of the time
-   * discretisation (but, say, of a mesh that is too coarse for the phase boundaries), and no step size mends it: the step
-   * is accepted, and what it showed is tolerated in the following steps, see noise_floor().
+   * discretisation (but, say, of a mesh that is too coarse for the phase boundaries), and no step size mends
+   * it: the step is accepted, and what it showed is tolerated in the following steps, see noise_floor().
    * Throws SimulationError when a rejected step already had the smallest size.
    */
   bool judge(double error);
@@ -45,7 +46,8 @@ public:
    */
   void fail(const std::string &reason);
 
-  /** Part of the estimates, in units of the tolerance, that does not depend on the step size; 0 if not noticed. */
+  /** Part of the estimates, in units of the tolerance, that does not depend on the step size; 0 if not
+   * noticed. */
   double noise_floor() const { return floor; }
 
 private:
@@ -54,8 +56,8 @@ private:
   Parameters::TimeStepping parameters;
   double now;
   std::vector<double> stops;
-  double wanted;         ///< step that the controller would like
-  double proposed = 0.;  ///< step in work
+  double wanted;                                  ///< step that the controller would like
+  double proposed = 0.;                           ///< step in work
   double rejected_step = 0., rejected_error = 0.; ///< last rejection at this time, if any
   double floor = 0.;
 };
