@@ -78,6 +78,15 @@ class Results:
                 data["connectivity"][...].astype(int),
             )
 
+    def interface_values(self, time, names):
+        """Values at the points of interface(time), by name: any of the datasets of interface.h5."""
+        _, group = min(self._interface_groups(), key=lambda entry: abs(entry[0] - time))
+        with self._open(self.interface_path) as file:
+            missing = [name for name in names if name not in file[group]]
+            if missing:
+                raise ResultsError(f"{self.interface_path} holds no {', '.join(missing)} of the membrane")
+            return {name: file[group][name][...] for name in names}
+
     def solution_times(self):
         """Times of the outputs of the fields, ascending; empty when there are none."""
         return [time for time, _ in self._solutions]

@@ -1,0 +1,84 @@
+"""Running a case with different parameters, each run in a directory of its own, and keeping what has been run."""
+
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+from postprocess.results import Results, ResultsError
+
+SAME_TIME = 1e-9
+
+
+class Run:
+    """One run of a case: a value of the varied parameter, and where its results are."""
+
+    def __init__(self, executable, case, settings, key, value, end_time, directory):
+        self.key, self.value, self.end_time = key, value, end_time
+        self.directory = Path(directory) / re.sub(r"[^A-Za-z0-9.+-]+", "_", f"{key.split('/')[-1]}={value}")
+        # The later setting wins: the varied parameter, and the end that the comparison needs.
+        settings = [*settings, f"{key}={value}", f"End time={end_time!r}"]
+        self.command = [str(executable), str(case)]
+        for setting in settings:
+            self.command += ["--set", setting]
+        self.command += ["--output", str(self.directory)]
+
+    def is_finished(self):
+        """Do results with just these parameters exist, up to the end?"""
+        parameters = self.directory / "parameters.prm"
+        if not parameters.is_file() or entries(parameters.read_text()) != entries(self._output("--print-parameters")):
+            return False
+        try:
+            results = Results(self.directory)
+            last_times = results.statistics().time.iloc[-1], results.interface_times()[-1]
+        except (ResultsError, OSError):
+            return False
+        return all(abs(time - self.end_time) <= SAME_TIME * max(1.0, self.end_time) for time in last_times)
+
+    def start(self):
+        """Compute it, on one core; the output of the program goes to run.log."""
+        self.directory.mkdir(parents=True, exist_ok=True)
+        threads = {name: "1" for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "DEAL_II_NUM_THREADS")}
+        with open(self.directory / "run.log", "w") as log:
+            finished = subprocess.run(
+                self.command, stdout=log, stderr=subprocess.STDOUT, env={**os.environ, **threads}
+            )
+        if finished.returncode != 0:
+            tail = (self.directory / "run.log").read_text().strip().splitlines()[-3:]
+            raise ResultsError(
+                f"the run with {self.key} = {self.value} ended with code {finished.returncode}: "
+                + " / ".join(tail)
+                + f" (all of it: {self.directory / 'run.log'})"
+            )
+
+    def complete(self, fresh=False):
+        """Compute it unless that has been done, or again if `fresh`."""
+        if not fresh and self.is_finished():
+            print(f"{self.key} = {self.value}: using {self.directory}", file=sys.stderr, flush=True)
+            return
+        print(f"{self.key} = {self.value}: computing", file=sys.stderr, flush=True)
+        self.start()
+
+    def _output(self, option):
+        finished = subprocess.run([*self.command, option], capture_output=True, text=True)
+        if finished.returncode != 0:
+            raise ResultsError(finished.stderr.strip() or f"{self.command[0]} {option} failed")
+        return finished.stdout
+
+
+def entries(text):
+    """Section/key -> value of a parameter file, without its comments."""
+    result, sections = {}, []
+    for line in text.splitlines():
+        words = line.split("#")[0].split(maxsplit=1)
+        if not words:
+            continue
+        if words[0] == "subsection":
+            sections.append(words[1].strip())
+        elif words[0] == "end":
+            sections.pop()
+        elif words[0] == "set":
+            name, _, value = words[1].partition("=")
+            result["/".join([*sections, name.strip()])] = value.strip()
+    return result

@@ -1,0 +1,212 @@
+"""How the results of a case converge with one of its parameters: runs it, compares, writes a table and a picture.
+
+python3 -m postprocess.convergence CASE.prm --executable build/release/gemmule --parameter "Mesh/Membrane level"
+    --values 4,5,6,7 --time 0.5 --output results/convergence
+"""
+
+import argparse
+import sys
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+try:
+    import numpy as np
+    import pandas as pd
+
+    from postprocess.case_runs import SAME_TIME, Run
+    from postprocess.curves import closed_curves
+    from postprocess.observed_order import orders
+    from postprocess.results import Results, ResultsError
+except ModuleNotFoundError as error:
+    sys.exit(
+        f"error: the Python package '{error.name}' is missing for {sys.executable}. Run this in the top folder of "
+        "the program, with a Python that has numpy, h5py, matplotlib and pandas (Debian: /usr/bin/python3)."
+    )
+
+SCALARS = ("centroid_x", "arclength", "energy_total")
+FIELDS = ("f", "f_total")
+QUANTITIES = (*SCALARS, "position", *FIELDS)
+COSTS = ("cells", "flow_dofs", "surface_dofs", "steps", "wall_time")
+MEASURES = {"value": lambda x: x, "level": lambda x: 2.0**-x, "inverse": lambda x: 1.0 / x}
+
+
+class State:
+    """What is compared of one run at one time."""
+
+    def __init__(self, directory, time):
+        results = Results(directory)
+        statistics = results.statistics()
+        row = statistics.iloc[(statistics.time - time).abs().argmin()]
+        interface = results.interface(time)
+        for found in (row.time, interface.time):
+            if abs(found - time) > SAME_TIME * max(1.0, abs(time)):
+                raise ResultsError(f"'{directory}' has no results at t = {time:g}; the nearest are at {found:g}")
+        self.scalars = {name: float(row[name]) for name in SCALARS}
+        self.costs = {name: row.get(name, np.nan) for name in COSTS if name != "steps"}
+        self.costs["steps"] = row.get("step", np.nan)
+        self.points = interface.points
+        if self.points.shape[1] != 2:
+            raise ResultsError(f"'{directory}' is three-dimensional: membranes are compared in two dimensions only")
+        try:
+            self.curves = closed_curves(interface.points, interface.segments, results.interface_values(time, FIELDS))
+        except ValueError as error:
+            raise ResultsError(f"'{directory}' at t = {time:g}: {error}")
+
+
+def difference(one, other, quantity):
+    """How far two states are apart, the second being the more accurate one; nan if they cannot be compared."""
+    if quantity in SCALARS:
+        return abs(one.scalars[quantity] - other.scalars[quantity])
+    if quantity == "position":
+        return float(np.min([curve.distances(one.points) for curve in other.curves], axis=0).max())
+    if len(one.curves) != len(other.curves):
+        return float("nan")
+    return max(
+        float(np.abs(mine.along(quantity) - theirs.along(quantity)).max())
+        for mine, theirs in zip(one.curves, other.curves)
+    )
+
+
+def compare(values, sizes, states):
+    """The table: one row per run, the last one the finest."""
+    table = pd.DataFrame({"value": values, "size": sizes})
+    for name in COSTS:
+        table[name] = [state.costs[name] for state in states]
+    for name in SCALARS:
+        table[name] = [state.scalars[name] for state in states]
+    for name in QUANTITIES:
+        successive = [difference(*pair, name) for pair in zip(states, states[1:])]
+        to_finest = [difference(state, states[-1], name) for state in states[:-2]]
+        table[f"{name}_difference"] = [*to_finest, successive[-1], np.nan]
+        table[f"{name}_successive"] = [*successive, np.nan]
+        table[f"{name}_order"] = orders(np.asarray(sizes), successive)
+    return table
+
+
+def markdown(table, key, time):
+    """What a reader wants to see of the table."""
+
+    def number(value, form):
+        return "-" if not np.isfinite(value) else format(value, form)
+
+    header = [key, "cells", "unknowns", "steps", "wall time/s"]
+    for name in QUANTITIES:
+        header += [name, "order"]
+    lines = [
+        f"Differences to the last run at t = {time:g}; orders from each run and its two neighbours.",
+        "",
+        "| " + " | ".join(header) + " |",
+        "|" + "---:|" * len(header),
+    ]
+    for _, row in table.iterrows():
+        unknowns = row.flow_dofs + row.surface_dofs
+        cells = [str(row.value), *(number(x, ".0f") for x in (row.cells, unknowns, row.steps))]
+        cells.append(number(row.wall_time, ".3g"))
+        for name in QUANTITIES:
+            cells += [number(row[f"{name}_difference"], ".2e"), number(row[f"{name}_order"], ".2f")]
+        lines.append("| " + " | ".join(cells) + " |")
+    return "\n".join(lines) + "\n"
+
+
+def figure(table, key, time, measure):
+    import matplotlib.pyplot as plt
+
+    from postprocess import style
+
+    style.apply()
+    result, axis = plt.subplots(figsize=(5.2, 4.2), layout="constrained")
+    sizes = table["size"].to_numpy()[:-1]
+    labels = ("centroid", "arclength", "energy", "position", "$f$", r"$\bar f$")
+    largest = []
+    for name, label, marker in zip(QUANTITIES, labels, "os^Dvx"):
+        values = table[f"{name}_difference"].to_numpy()[:-1]
+        if np.any(values > 0):
+            axis.loglog(sizes, np.where(values > 0, values, np.nan), marker=marker, markersize=4, label=label)
+            largest.append(np.nanmax(values))
+    if largest and len(sizes) > 1:
+        for order in (2, 3):
+            guide = 2 * max(largest) * (sizes / sizes[0]) ** order
+            axis.loglog(sizes, guide, ":", color=style.INK, linewidth=0.8)
+            axis.annotate(f" {order}", (sizes[-1], guide[-1]), fontsize=8)
+        axis.legend(ncols=2)
+    form = {"value": "{}", "level": "2^-({})", "inverse": "1/({})"}[measure]
+    axis.set_xlabel(form.format(key))
+    axis.set_ylabel(f"difference to the finest run at $t = {time:g}$")
+    axis.spines[["top", "right"]].set_visible(False)
+    return result
+
+
+def parse_values(text):
+    values = [item.strip() for item in text.split(",")]
+    try:
+        [float(item) for item in values]
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"'{text}' is not a list of numbers separated by commas, such as 4,5,6")
+    if len(values) < 2:
+        raise argparse.ArgumentTypeError(f"'{text}' is one value: give at least two, three for an order")
+    return values
+
+
+def parser():
+    result = argparse.ArgumentParser(prog="python3 -m postprocess.convergence", description=__doc__.split("\n")[0])
+    result.add_argument("case", type=Path, metavar="CASE.prm")
+    result.add_argument("--executable", type=Path, required=True, help="the program, build/release/gemmule")
+    result.add_argument("--parameter", required=True, metavar="SECTION/KEY", help="the parameter that is varied")
+    result.add_argument("--values", type=parse_values, required=True, help="its values, the finest last: 4,5,6,7")
+    result.add_argument("--time", type=float, required=True, help="when to compare; the runs end there")
+    result.add_argument("--output", type=Path, required=True, help="directory of the runs and the table")
+    result.add_argument("--set", action="append", default=[], metavar="SECTION/KEY=VALUE", help="for all runs")
+    result.add_argument("--jobs", type=int, default=1, help="runs at the same time (default: 1)")
+    result.add_argument("--fresh", action="store_true", help="compute again what has been computed")
+    result.add_argument(
+        "--measure",
+        choices=MEASURES,
+        help="what orders refer to: the value, 2^-value (default for names that end in 'level'), or its inverse",
+    )
+    return result
+
+
+def study(options):
+    measure = options.measure or ("level" if options.parameter.lower().endswith("level") else "value")
+    sizes = [MEASURES[measure](float(value)) for value in options.values]
+    if min(sizes) <= 0 or any(fine >= coarse for coarse, fine in zip(sizes, sizes[1:])):
+        raise ResultsError(
+            f"the values {', '.join(options.values)} do not get finer: --values needs the finest last, "
+            f"and --measure {measure} has to be right"
+        )
+    for path in (options.executable, options.case):
+        if not path.is_file():
+            raise ResultsError(f"there is no file '{path}'")
+    program = options.executable.resolve()
+    runs = [
+        Run(program, options.case, options.set, options.parameter, value, options.time, options.output)
+        for value in options.values
+    ]
+    with ThreadPoolExecutor(max(1, options.jobs)) as pool:
+        list(pool.map(lambda run: run.complete(options.fresh), runs))
+
+    table = compare(options.values, sizes, [State(run.directory, options.time) for run in runs])
+    table.to_csv(options.output / "convergence.csv", index=False)
+    text = markdown(table, options.parameter, options.time)
+    (options.output / "convergence.md").write_text(text)
+
+    import matplotlib
+
+    matplotlib.use("Agg")
+    from postprocess import style
+
+    style.save(figure(table, options.parameter, options.time, measure), options.output / "convergence.png")
+    return text
+
+
+def main(arguments=None):
+    try:
+        print(study(parser().parse_args(arguments)))
+    except (ResultsError, OSError) as error:
+        print(f"error: {error}", file=sys.stderr)
+        return 1
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
