@@ -125,6 +125,55 @@ TEST(ParallelCoupledBending, StepsAreNotLimitedByTheMesh)
   EXPECT_LT(statistics_of(system).curvature_max, 2. * (1. + 9. * 0.04));
 }
 
+TEST(ParallelCoupledBending, CurvatureStaysSmoothWhileACircleIsCarriedThroughTheMesh)
+{
+  AllParameters parameters = small_case_with_tension("0");
+  parameters.membrane.level_set = "(x+0.2)^2+(y+0.1)^2-0.25";
+  parameters.domain.boundary_velocity = "0.4; 0.2";
+  parameters.bending.rigidity_0 = 1e-6; // only to have the curvature
+  CoupledSystem<2> system(parameters, MPI_COMM_WORLD);
+  system.initialise();
+  const auto errors = [&]
+  {
+    // root mean square and largest error of the curvature in use, and of div n of the level set
+    std::array<double, 4> result{};
+    for (unsigned int c = 0; c < system.get_geometry().cut_cells().size(); ++c)
+    {
+      const auto &cell = system.get_geometry().cut_cells()[c];
+      for (unsigned int q = 0; q < cell.surface_points.size(); ++q)
+      {
+        const auto phi = evaluate_polynomial<2, 3, 2>(cell.level_set, cell.surface_points[q]);
+        const auto n = cell.normals[q];
+        const double pointwise = (trace(phi.hessian) - n * (phi.hessian * n)) / (phi.gradient.norm() * cell.size);
+        unsigned int k = 0;
+        for (const double curvature : {system.get_bending()->curvature()[c][q], pointwise})
+        {
+          const double e = curvature - 1. / radius;
+          result[k] += cell.surface_weights[q] * e * e;
+          result[k + 1] = std::max(result[k + 1], std::abs(e));
+          k += 2;
+        }
+      }
+    }
+    for (const unsigned int k : {0, 2})
+    {
+      result[k] = std::sqrt(dealii::Utilities::MPI::sum(result[k], MPI_COMM_WORLD) / system.get_geometry().measure());
+      result[k + 1] = dealii::Utilities::MPI::max(result[k + 1], MPI_COMM_WORLD);
+    }
+    return result;
+  };
+  const auto start = errors();
+  for (unsigned int i = 0; i < 60; ++i)
+  {
+    system.try_step(0.01);
+    system.accept();
+  }
+  const auto end = errors();
+  std::cout << "curvature, start: " << start[0] << ' ' << start[1] << " (div n " << start[2] << ' ' << start[3]
+            << "), end: " << end[0] << ' ' << end[1] << " (div n " << end[2] << ' ' << end[3] << ")" << std::endl;
+  EXPECT_LT(end[0], 0.02);
+}
+
 TEST(ParallelCoupledBending, EnergyFallsAndMassesAndAreaStay)
 {
   const auto rows = run_case(case_with_bending(), 20, 0.005);

@@ -11,7 +11,7 @@ namespace Gemmule
  *   (S dt k / Ca) int grad_s z . (grad_s <v>)^T n,     int z y + h int_band (n.grad z)(n.grad y)
  *                                                      = int grad_s y . (grad_s w)^T n   for all y,
  *
- * w = <u> - u_old as in SemiImplicitTension: S dt times the linearised bending stiffness, since -z is the rate of
+ * w = <u> - u_old as in SemiImplicitTension: S dt times the linearised bending stiffness, since z is the rate of
  * change of the curvature in the same trace space in which the bending force has it. With the largest
  * rigidity k the damping is as strong as needed everywhere. z enters the flow system as an additional
  * unknown on the cut cells, scaled with sqrt(S dt k / Ca), which keeps the matrix symmetric.
