@@ -75,7 +75,10 @@ bool StepControl::judge(const double estimate)
   // Whether it is good enough is measured by what can be reached, the step by the part that depends on it.
   const double error = estimate / std::max(1., 1.5 * floor);
   const double ideal = safety * std::pow(std::max(estimate - floor, 1e-10), -1. / order_of_local_error);
-  if (parameters.adaptive && error > 1.)
+  // A stop can cut a step below the smallest size; repeating it smaller is not possible, and it says nothing
+  // about the size to go on with.
+  const bool is_remainder = proposed < parameters.smallest_step * (1. - same);
+  if (parameters.adaptive && error > 1. && !is_remainder)
   {
     const bool falls = rejected_step == 0. || estimate < rejected_error * proposed / rejected_step;
     if (falls)
@@ -90,7 +93,7 @@ bool StepControl::judge(const double estimate)
     floor = std::max(floor, estimate);
     wanted = rejected_step;
   }
-  else if (parameters.adaptive)
+  else if (parameters.adaptive && !is_remainder)
   {
     floor = floor < 0.1 ? 0. : fading * floor;
     wanted = std::min(std::max(proposed * std::min(ideal, parameters.largest_growth),
