@@ -12,14 +12,18 @@ namespace
 {
 constexpr double radius = 0.5;
 
-/** A circle with a small mode k = 2 or 3 in a box so large that its walls do not matter. */
-AllParameters perturbed_circle(const unsigned int mode, const double amplitude, const unsigned int level = 8)
+/**
+ * A circle with a small mode k = 2 or 3 on cells of 1/32, in a box so large that its walls matter little: they
+ * slow the mode down by about 2.4 (R/D)^2 for k = 2 and 11 (R/D)^4 for k = 3, D their distance.
+ */
+AllParameters perturbed_circle(const unsigned int mode, const double amplitude)
 {
   AllParameters parameters = small_case_with_tension("0");
-  parameters.domain.lower_corner = {-4., -4.};
-  parameters.domain.upper_corner = {4., 4.};
+  const double distance = mode == 2 ? 16. : 4.;
+  parameters.domain.lower_corner = {-distance, -distance};
+  parameters.domain.upper_corner = {distance, distance};
   parameters.mesh.bulk_level = 4;
-  parameters.mesh.membrane_level = parameters.mesh.phase_boundary_level = level;
+  parameters.mesh.membrane_level = parameters.mesh.phase_boundary_level = mode == 2 ? 10 : 8;
   const std::string cosine = mode == 2 ? "(x^2-y^2)/(x^2+y^2)" : "(x^3-3*x*y^2)/(x^2+y^2)^1.5";
   parameters.membrane.level_set =
       "if(x^2+y^2<0.01,-0.4,sqrt(x^2+y^2)-0.5-" + std::to_string(amplitude) + "*" + cosine + ")";
@@ -100,7 +104,7 @@ TEST_P(ParallelShapeModes, DecayAtTheRatesOfLinearTheory)
     system.initialise();
     const double rate = 0.1 * k * (k * k - 1.5) / (4. * std::pow(radius, 3));
     std::cout << "mode " << k << ", bending: " << decay_rate(system, k) << ", theory " << rate << std::endl;
-    EXPECT_NEAR(decay_rate(system, k), rate, 1e-2 * rate);
+    EXPECT_NEAR(decay_rate(system, k), rate, 5e-3 * rate);
   }
 }
 
