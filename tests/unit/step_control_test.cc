@@ -40,16 +40,44 @@ TEST(StepControl, HitsAllStopsExactlyAndEnds)
 TEST(StepControl, GrowsToTheLargestStepAndRespectsTheStabilityLimit)
 {
   StepControl control(parameters(), 0., {100.});
-  double previous = 0.01;
-  for (unsigned int i = 0; i < 20; ++i)
+  double previous = control.propose(unlimited);
+  for (unsigned int i = 0; i < 25; ++i)
   {
     const double step = control.propose(unlimited);
-    EXPECT_LE(step, 1.5 * previous * (1. + 1e-12));
+    EXPECT_LE(step, (step <= 0.01 ? 2. : 1.5) * previous * (1. + 1e-12));
     previous = step;
     control.judge(1e-6);
   }
   EXPECT_DOUBLE_EQ(previous, 0.08);
   EXPECT_DOUBLE_EQ(control.propose(0.02), 0.02);
+}
+
+TEST(StepControl, StartsWithSmallStepsThatDoubleUpToTheInitialOne)
+{
+  for (const bool adaptive : {false, true})
+  {
+    auto p = parameters();
+    p.adaptive = adaptive;
+    StepControl control(p, 0., {1.});
+    for (const double part : {1. / 16., 1. / 16., 1. / 8., 1. / 4., 1. / 2., 1.})
+    {
+      EXPECT_DOUBLE_EQ(control.propose(unlimited), part * p.initial_step);
+      ASSERT_TRUE(control.judge(0.5));
+    }
+    EXPECT_DOUBLE_EQ(control.time(), 2. * p.initial_step);
+  }
+}
+
+TEST(StepControl, NeverStartsBelowTheSmallestStep)
+{
+  auto p = parameters();
+  p.smallest_step = 0.4 * p.initial_step;
+  StepControl control(p, 0., {1.});
+  for (const double part : {0.5, 0.5, 1.})
+  {
+    EXPECT_DOUBLE_EQ(control.propose(unlimited), part * p.initial_step);
+    ASSERT_TRUE(control.judge(0.5));
+  }
 }
 
 TEST(StepControl, RepeatsABadStepSmallerAndStaysWhereItIs)
