@@ -1,3 +1,4 @@
+#include <gemmule/algebra/gather.h>
 #include <gemmule/application/coupled_system.h>
 #include <gemmule/application/initial_membrane.h>
 #include <gemmule/application/wall_cells.h>
@@ -29,6 +30,16 @@ namespace
   constexpr double bending_stiffness_margin = 2.5;
   // A given reference arclength is approached by at most this part of it per step.
   constexpr double largest_arclength_change = 1e-3;
+  // Mesh and flow at the start depend on each other when the flow's error is a criterion.
+  constexpr unsigned int largest_number_of_initial_meshes = 6;
+
+  /** 10-90 % width of the equilibrium profile (1 + tanh(s / (2 sqrt(2) C))) / 2; 0 without phases. */
+  double phase_boundary_width(const Parameters::Membrane &membrane)
+  {
+    return membrane.tension_model == Parameters::TensionModel::phase_field
+               ? 4. * std::sqrt(2.) * std::atanh(0.8) * membrane.cahn_number
+               : 0.;
+  }
 
   /** Q2 nodal values as Q3 nodal values of the same polynomial. */
   template <int dim, typename T>
@@ -84,7 +95,8 @@ CoupledSystem<dim>::CoupledSystem(const AllParameters &parameters_, const MPI_Co
       prescribed_tension(
           make_function<dim>(parameters.membrane.prescribed_tension, 1, "Membrane/Prescribed tension")),
       model(parameters.membrane, parameters.regularisation, parameters.bending), level_set(triangulation),
-      flow(triangulation, parameters.fluid, parameters.flow), adaptation(triangulation, parameters.mesh)
+      flow(triangulation, parameters.fluid, parameters.flow),
+      adaptation(triangulation, parameters.mesh, phase_boundary_width(parameters.membrane))
 {
   if (parameters.membrane.tension_model == Parameters::TensionModel::phase_field)
     surface = std::make_unique<SurfaceSolver<dim>>(triangulation, model, parameters.surface);
@@ -108,19 +120,24 @@ void CoupledSystem<dim>::reinit_mesh()
 template <int dim>
 void CoupledSystem<dim>::initialise()
 {
+  const InitialMembrane<dim> initial(parameters, communicator);
+  initial.make_mesh(triangulation, level_set, geometry, adaptation);
+  for (unsigned int i = 1;; ++i)
   {
-    const InitialMembrane<dim> initial(parameters, communicator);
-    initial.make_mesh(triangulation, level_set, geometry, adaptation);
     reinit_mesh();
     initial.make_level_set(origin, level_set, geometry);
     const MembranePointValues *const curvature = compute_curvature();
     if (surface)
       initial.make_phases(level_set, geometry, *surface, curvature);
+    area_0 = geometry.enclosed_volume();
+    arclength_0 = parameters.arclength.reference_arclength > 0. ? parameters.arclength.reference_arclength
+                                                                : geometry.measure();
+    solve_flow(0., parameters.time_stepping.initial_step, nullptr);
+    sample_flow();
+    if (flow_samples.empty() || i == largest_number_of_initial_meshes ||
+        !initial.make_mesh(triangulation, level_set, geometry, adaptation, flow_samples))
+      break;
   }
-  area_0 = geometry.enclosed_volume();
-  arclength_0 = parameters.arclength.reference_arclength > 0. ? parameters.arclength.reference_arclength
-                                                              : geometry.measure();
-  solve_flow(0., parameters.time_stepping.initial_step, nullptr);
 
   std::vector<TransportedFields<dim>> at_rest(geometry.cut_cells().size());
   for (unsigned int c = 0; c < at_rest.size(); ++c)
@@ -135,6 +152,44 @@ void CoupledSystem<dim>::check_wall() const
 {
   if (count_wall_cells(triangulation, geometry, communicator).not_outside > 0)
     throw SimulationError("The membrane has reached the wall of the box. Use a larger box, or end earlier.");
+}
+
+template <int dim>
+void CoupledSystem<dim>::check_refined_band() const
+{
+  const double allowed =
+      parameters.domain.shortest_edge() *
+      std::ldexp(1. + 1e-10, -static_cast<int>(adaptation.limited(parameters.mesh.membrane_level)));
+  double largest = 0.;
+  for (const auto &cell : geometry.cut_cells())
+    largest = std::max(largest, cell.size);
+  if (Utilities::MPI::max(largest, communicator) > allowed)
+    throw SimulationError("The membrane has left the refined cells around it: the step is too long.");
+}
+
+template <int dim>
+void CoupledSystem<dim>::sample_flow()
+{
+  flow_samples.clear();
+  if (!adaptation.needs_cell_samples())
+    return;
+  TimerOutput::Scope scope(timer_output, "flow: error estimate");
+  const FlowErrorEstimate estimate = flow.estimate_error();
+  // A flow at rest has no error that would be worth a finer mesh.
+  const double norm = std::max(std::sqrt(estimate.norm_square), 1e-12);
+  std::vector<CellSample<dim>> own;
+  unsigned int k = 0; // the estimate has the owned cells in the order of the mesh
+  for (const auto &cell : triangulation.active_cell_iterators())
+    if (cell->is_locally_owned())
+    {
+      CellSample<dim> sample{};
+      for (unsigned int d = 0; d < dim; ++d)
+        sample.center[d] = cell->center()[d];
+      sample.level = cell->level();
+      sample.error = std::sqrt(estimate.squares[k++]) / norm;
+      own.push_back(sample);
+    }
+  flow_samples = gather_plain(own, communicator);
 }
 
 template <int dim>
@@ -153,6 +208,7 @@ std::vector<MembraneSample<dim>> CoupledSystem<dim>::samples(const MembraneProje
     p.converged = true;
     MembraneSample<dim> sample;
     sample.point = s.point;
+    sample.normal = s.normal;
     sample.curvature = membrane.curvature(s);
     if (surface)
       sample.composition =
@@ -178,12 +234,15 @@ void CoupledSystem<dim>::adapt_mesh(const MembraneProjection<dim> &membrane,
     ++steps_since_remeshing;
     if (steps_since_remeshing >= parameters.mesh.remeshing_interval || adaptation.is_too_coarse(wanted, 1))
     {
-      changed = adaptation.adapt(wanted);
+      changed = adaptation.adapt(wanted, flow_samples);
       steps_since_remeshing = 0;
     }
   }
   if (changed)
+  {
+    ++n_mesh_changes;
     reinit_mesh();
+  }
 }
 
 template <int dim>
@@ -192,6 +251,7 @@ void CoupledSystem<dim>::cut_mesh(const bool keep_area)
   TimerOutput::Scope scope(timer_output, "geometry: cut cells");
   geometry.reinit(level_set.get_dof_handler(), level_set.values());
   check_wall();
+  check_refined_band();
   last_area_correction = 0.;
   // Newton's method: a shift by s changes the area by -s L.
   for (unsigned int i = 0; keep_area && i < 3; ++i)
@@ -426,6 +486,7 @@ void CoupledSystem<dim>::accept()
   previous = std::move(current);
   current = std::move(trial);
   current_capillary_step = trial_capillary_step;
+  sample_flow();
 }
 
 template <int dim>

@@ -77,6 +77,8 @@ public:
   double reference_arclength() const { return arclength_0; }
   double area_correction() const { return last_area_correction; }
   unsigned int lowered_levels() const { return adaptation.lowered_levels(); }
+  /** How often the mesh has changed since the start. */
+  unsigned int mesh_changes() const { return n_mesh_changes; }
   dealii::TimerOutput &timer() { return timer_output; }
 
 private:
@@ -90,6 +92,10 @@ private:
   void check_wall() const;
   /** Curvature for the bending energy at the quadrature points of the cut mesh; nullptr without bending. */
   const MembranePointValues *compute_curvature();
+  /** Throws SimulationError if some cut cell is coarser than "Membrane level". */
+  void check_refined_band() const;
+  /** Samples the error of the last flow for the criteria that need it. */
+  void sample_flow();
   /** @param old_velocity of the same material points one step ago; nullptr at the start */
   void solve_flow(double time, double dt, const CutCellVector<dim> *old_velocity);
   double compute_capillary_time_step() const;
@@ -118,6 +124,8 @@ private:
   double area_0 = 0., arclength_0 = 0.;
   double last_area_correction = 0.;
   unsigned int steps_since_remeshing = 0;
+  unsigned int n_mesh_changes = 0;
+  std::vector<CellSample<dim>> flow_samples; ///< of the current state; empty if no criterion needs them
 
   MembraneSnapshot<dim> current, previous, trial;
   double dt_previous = 0.;  ///< between previous and current
