@@ -46,26 +46,23 @@ TEST(ParallelBending, CurvatureOfAnEllipseConverges)
     const ParametricBending exact(centre, a, b, run.model, varying_composition);
     run.set_membrane(EllipseDistance(centre, a, b));
     errors[i] = run.curvature_error([&](const Point<2> &x) { return exact.curvature(x); });
-    RecordProperty("error" + std::to_string(i), std::to_string(errors[i]));
-    std::cout << "curvature, level " << 4 + i << ": " << errors[i];
-    {
-      // the alternative: projection of div n of the level set
-      const auto &cells = run.harness.geometry.cut_cells();
-      const auto projected = project<2>(
-          run.bending.trace_space(),
-          [&](const unsigned int k, const unsigned int q, const Point<2> &)
-          {
-            const auto phi = evaluate_polynomial<2, 3, 2>(cells[k].level_set, cells[k].surface_points[q]);
-            const auto n = cells[k].normals[q];
-            return (trace(phi.hessian) - n * (phi.hessian * n)) / (phi.gradient.norm() * cells[k].size);
-          });
-      std::cout << "  projected div n: "
-                << run.harness.l2_error(projected, [&](const Point<2> &x) { return exact.curvature(x); })
-                << std::endl;
-    }
+    // the alternative, for comparison: projection of div n of the level set
+    const auto &cells = run.harness.geometry.cut_cells();
+    const auto projected = project<2>(
+        run.bending.trace_space(),
+        [&](const unsigned int k, const unsigned int q, const Point<2> &)
+        {
+          const auto phi = evaluate_polynomial<2, 3, 2>(cells[k].level_set, cells[k].surface_points[q]);
+          const auto n = cells[k].normals[q];
+          return (trace(phi.hessian) - n * (phi.hessian * n)) / (phi.gradient.norm() * cells[k].size);
+        });
+    const double alternative =
+        run.harness.l2_error(projected, [&](const Point<2> &x) { return exact.curvature(x); });
+    EXPECT_LT(errors[i], 0.5 * alternative);
   }
   for (unsigned int i = 1; i < 3; ++i)
-    EXPECT_GT(std::log2(errors[i - 1] / errors[i]), 1.5) << errors[i - 1] << ' ' << errors[i];
+    EXPECT_GT(std::log2(errors[i - 1] / errors[i]), 2.2) << errors[i - 1] << ' ' << errors[i];
+  EXPECT_LT(errors[2], 3e-4);
 }
 
 TEST(ParallelBending, ForceIsTheVariationOfTheEnergy)
@@ -86,14 +83,12 @@ TEST(ParallelBending, ForceIsTheVariationOfTheEnergy)
       {
         const double value = exact.variation(test_fields[v]);
         errors[v][i] = std::abs(run.variation(test_fields[v]) - value) / std::abs(value);
-        std::cout << "variation, level " << 4 + i << ", field " << v << ": " << value << ", relative error "
-                  << errors[v][i] << std::endl;
       }
     }
     for (const auto &error : errors)
     {
-      EXPECT_GT(std::log2(error[0] / error[2]) / 2., 1.5) << error[0] << ' ' << error[1] << ' ' << error[2];
-      EXPECT_LT(error[2], 2e-3);
+      EXPECT_GT(std::log2(error[0] / error[2]) / 2., 2.5) << error[0] << ' ' << error[1] << ' ' << error[2];
+      EXPECT_LT(error[2], 2e-5);
     }
   }
 }
@@ -130,10 +125,10 @@ TEST(ParallelBending, CircleOfSpontaneousCurvatureIsFreeOfForce)
       const BendingForce<2> force(bending, flow.geometry);
       flow.solver.solve(flow.tension, nullptr, &force);
       speeds[i] = flow.error([](const Point<2> &) { return Tensor<1, 2>(); });
-      std::cout << "circle, kappa_0 = " << spontaneous << ", level " << 3 + i << ": speed on the membrane (L2) "
-                << speeds[i] << ", largest " << flow.solver.max_velocity() << std::endl;
     }
-    EXPECT_GT(std::log2(speeds[0] / speeds[3]) / 3., 1.5) << speeds[0] << ' ' << speeds[3];
-    EXPECT_LT(speeds[3], 1e-3);
+    // The interpolated circle has kinks of order h^3 at the faces: a curvature error of order h^2 as short as a
+    // cell, and velocities of order h.
+    EXPECT_GT(std::log2(speeds[0] / speeds[3]) / 3., 1.1) << speeds[0] << ' ' << speeds[3];
+    EXPECT_LT(speeds[3], 2.5e-3) << "in units of rigidity / R^3 = 11";
   }
 }
