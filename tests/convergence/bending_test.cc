@@ -132,3 +132,79 @@ TEST(ParallelBending, CircleOfSpontaneousCurvatureIsFreeOfForce)
     EXPECT_LT(speeds[3], 2.5e-3) << "in units of rigidity / R^3 = 11";
   }
 }
+
+namespace
+{
+/** Bending energy of the spheroid with semi-axes a (twice) and c, rigidity 1. */
+double spheroid_energy(const double a, const double c, const double spontaneous)
+{
+  constexpr unsigned int n = 2000;
+  double sum = 0.;
+  for (unsigned int i = 0; i < n; ++i)
+  {
+    const double t = dealii::numbers::PI * (i + 0.5) / n;
+    const double q = std::hypot(a * std::cos(t), c * std::sin(t));
+    const double curvature = a * c / (q * q * q) + c / (a * q) - spontaneous;
+    sum += dealii::numbers::PI / n * 2. * dealii::numbers::PI * a * std::sin(t) * q * 0.5 * curvature * curvature;
+  }
+  return sum;
+}
+} // namespace
+
+TEST(ParallelBending, ForceIsTheVariationOfTheEnergyInThreeDimensions)
+{
+  const double a = 0.6, c = 0.45, spontaneous = 1., s = 1e-4;
+  // Displacements that keep it a spheroid, and what they do to its energy.
+  const std::array<Tensor<1, 3>, 2> directions = {{Point<3>(1. / a, 1. / a, 0.), Point<3>(0., 0., 1. / c)}};
+  const std::array<double, 2> exact = {
+      {(spheroid_energy(a + s, c, spontaneous) - spheroid_energy(a - s, c, spontaneous)) / (2. * s),
+       (spheroid_energy(a, c + s, spontaneous) - spheroid_energy(a, c - s, spontaneous)) / (2. * s)}};
+  std::array<std::array<double, 2>, 2> errors;
+  for (unsigned int i = 0; i < 2; ++i)
+  {
+    LevelSetMesh<3> mesh(2);
+    for (unsigned int r = 0; r < 1 + i; ++r)
+      mesh.refine_where([](const Point<3> &p) { return std::abs(p.norm() - 0.5) < 0.5; });
+    mesh.interpolate(ScalarFunctionFromFunctionObject<3>(
+        [=](const Point<3> &p)
+        {
+          const double r = std::sqrt((p[0] * p[0] + p[1] * p[1]) / (a * a) + p[2] * p[2] / (c * c));
+          return 0.5 * (r * r - 1.) / std::sqrt((p[0] * p[0] + p[1] * p[1]) / std::pow(a, 4) +
+                                                p[2] * p[2] / std::pow(c, 4) + 1e-2);
+        }));
+    CutGeometry<3> geometry;
+    geometry.reinit(mesh.dof_handler, mesh.level_set);
+    Parameters::Bending parameters;
+    parameters.rigidity_0 = 1.;
+    parameters.spontaneous_curvature_0 = spontaneous;
+    const BendingModel model(parameters);
+    MembraneBending<3> bending(mesh.triangulation, model);
+    bending.reinit_mesh();
+    bending.compute_curvature(geometry, mesh.dof_handler, mesh.level_set);
+    bending.compute_moment(nullptr, nullptr);
+    MembraneForce<3> force;
+    force.reinit(geometry);
+    for (unsigned int k = 0; k < 2; ++k)
+    {
+      std::vector<MembraneVelocity<3>> velocity(geometry.cut_cells().size());
+      for (unsigned int cell = 0; cell < velocity.size(); ++cell)
+      {
+        velocity[cell].cell_size = geometry.cut_cells()[cell].size;
+        for (unsigned int node = 0; node < velocity[cell].nodal.size(); ++node)
+        {
+          const auto x = geometry.cut_cells()[cell].physical(TensorLagrange<3, 2>::node(node));
+          for (unsigned int d = 0; d < 3; ++d)
+            velocity[cell].nodal[node][d] = directions[k][d] * x[d];
+        }
+      }
+      const double value = dealii::Utilities::MPI::sum(BendingForce<3>(bending, geometry).power(force, velocity),
+                                                       MPI_COMM_WORLD);
+      errors[i][k] = std::abs(value / exact[k] - 1.);
+    }
+  }
+  for (unsigned int k = 0; k < 2; ++k)
+  {
+    EXPECT_LT(errors[1][k], 5e-3) << exact[k];
+    EXPECT_LT(errors[1][k], 0.5 * errors[0][k]) << errors[0][k];
+  }
+}
