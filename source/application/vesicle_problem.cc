@@ -186,7 +186,8 @@ void VesicleProblem<dim>::report()
   }
   statistics->write(row);
 
-  if (row.tension_min < 0.)
+  // With bending stiffness the wrinkles have a wavelength of their own.
+  if (row.tension_min < 0. && system->get_bending() == nullptr)
     log->warn_once(
         "negative tension",
         "the tension is negative on a part of the membrane since t = " + rounded(row.time) + " (minimum " +

@@ -99,6 +99,8 @@ private:
   /** @param old_velocity of the same material points one step ago; nullptr at the start */
   void solve_flow(double time, double dt, const CutCellVector<dim> *old_velocity);
   double compute_capillary_time_step() const;
+  /** Level set and cut mesh of the current membrane after @p motion, with the area of the beginning. */
+  void move_level_set(const MembraneMotion<dim> &motion);
   bool has_arclength_multiplier() const;
   /** The arclength that a multiplier gives the membrane in the next step. */
   double next_arclength() const;
