@@ -31,6 +31,7 @@ struct AllParameters
   Fluid fluid;
   Membrane membrane;
   Regularisation regularisation;
+  Bending bending;
   ArclengthConstraint arclength;
   Mesh mesh;
   Flow flow;
