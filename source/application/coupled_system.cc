@@ -2,6 +2,7 @@
 #include <gemmule/application/coupled_system.h>
 #include <gemmule/application/initial_membrane.h>
 #include <gemmule/application/wall_cells.h>
+#include <gemmule/geometry/cloud_refinement.h>
 #include <gemmule/geometry/membrane_transport.h>
 #include <gemmule/mesh/box_mesh.h>
 #include <gemmule/parameters/errors.h>
@@ -243,6 +244,8 @@ void CoupledSystem<dim>::adapt_mesh(const MembraneProjection<dim> &membrane,
     ++n_mesh_changes;
     n_steps_on_mesh = 0;
     reinit_mesh();
+    refine_cloud(current, triangulation);
+    refine_cloud(previous, triangulation);
   }
 }
 

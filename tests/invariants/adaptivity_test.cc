@@ -128,6 +128,15 @@ TEST(ParallelAdaptivity, PhaseBoundaryAcrossCellsOfDifferentLevels)
   EXPECT_LT(largest_drift(rows, &StatisticsRow::area), 1e-10);
   for (unsigned int i = 1; i < rows.size(); ++i)
     EXPECT_LT(rows[i].energy_total, rows[i - 1].energy_total + 1e-6) << "step " << i;
+
+  // Nor does it matter that the cells are refined only when the boundaries get there.
+  parameters.mesh.membrane_level = parameters.mesh.phase_boundary_level = 6;
+  CoupledSystem<2> fine(parameters, MPI_COMM_WORLD);
+  fine.initialise();
+  const Rows reference = run_steps(fine, 12, 0.01);
+  EXPECT_NEAR(rows.back().f_total_min, reference.back().f_total_min, 1e-3);
+  EXPECT_NEAR(rows.back().f_total_max, reference.back().f_total_max, 1e-3);
+  EXPECT_NEAR(rows.back().energy_total / reference.back().energy_total, 1., 1e-3);
 }
 
 namespace
