@@ -23,11 +23,14 @@ class Run:
     def __init__(self, executable, case, settings, title, name, end_time, directory):
         self.title, self.end_time = title, end_time
         self.directory = Path(directory) / re.sub(r"[^A-Za-z0-9.+-]+", "_", name)
-        # The later setting wins: also the end that the comparison needs.
-        settings = [*settings, f"End time={end_time!r}"]
+        # The later setting wins, also the end that the comparison needs; the program takes each only once.
+        chosen = {}
+        for setting in [*settings, f"End time={end_time!r}"]:
+            key, _, value = setting.partition("=")
+            chosen[key.strip()] = value
         self.command = [str(executable), str(case)]
-        for setting in settings:
-            self.command += ["--set", setting]
+        for key, value in chosen.items():
+            self.command += ["--set", f"{key}={value}"]
         self.command += ["--output", str(self.directory)]
 
     def is_finished(self):

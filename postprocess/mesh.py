@@ -7,6 +7,7 @@ from matplotlib.collections import PolyCollection
 from postprocess import membrane, snapshots
 
 MOST_COLUMNS = 3
+FLAT = 0.6  # height over width of a window below which panels are stacked
 
 
 def figure(results, times=None):
@@ -21,10 +22,11 @@ def figure(results, times=None):
         window = np.column_stack([nodes.min(axis=0), nodes.max(axis=0)]).ravel()
     else:
         window = np.array(snapshots.common_window(interfaces))
-    columns = min(MOST_COLUMNS, len(chosen))
+    ratio = (window[3] - window[2]) / (window[1] - window[0])
+    columns = min(MOST_COLUMNS if ratio > FLAT else 1, len(chosen))
     rows = -(-len(chosen) // columns)
-    size = 5.6 if len(chosen) == 1 else 3.4
-    height = size * min(1.0, (window[3] - window[2]) / (window[1] - window[0])) + 0.2
+    size = 5.6 if columns == 1 else 3.4
+    height = size * min(1.0, ratio) + (0.4 if columns == 1 else 0.2)
     result, axes = plt.subplots(
         rows,
         columns,

@@ -113,13 +113,21 @@ def make_series(options):
     return result
 
 
-def tables(all_series, time):
-    """One table per series; differences are those to the finest run of the first series."""
+def reference_series(all_series, name):
+    """The series whose finest run the others are compared with: the first one unless it is named."""
+    for series in all_series:
+        if name is None or series.name == name:
+            return series
+    raise ResultsError(f"there is no series '{name}': there are {', '.join(series.name for series in all_series)}")
+
+
+def tables(all_series, time, reference):
+    """One table per series; differences are those to the finest run of the series `reference`."""
     states = [[State(run.directory, time) for run in series.runs] for series in all_series]
-    reference = states[0][-1]
+    finest = states[all_series.index(reference)][-1]
     result = []
     for series, own in zip(all_series, states):
-        table = compare(series.values, series.sizes, own, reference)
+        table = compare(series.values, series.sizes, own, finest)
         table.insert(0, "series", series.name)
         table.insert(5, "unknowns", table.flow_dofs + table.surface_dofs)
         result.append(table)
@@ -208,30 +216,39 @@ def parser():
         metavar="NAME:SECTION/KEY=VALUE;...",
         help="a series of adaptive meshes with these settings; may be repeated (default: one, as the case is)",
     )
+    result.add_argument(
+        "--reference",
+        metavar="NAME",
+        help="series whose finest run the others are compared with (default: the first). Adaptive meshes of one kind "
+        "share errors, such as that of a coarse bulk, which only another kind of mesh shows",
+    )
     result.add_argument("--set", action="append", default=[], metavar="SECTION/KEY=VALUE", help="for all runs")
     result.add_argument("--jobs", type=int, default=1, help="runs at the same time (default: 1)")
     result.add_argument("--fresh", action="store_true", help="compute again what has been computed")
     return result
 
 
-def report(all_series, all_tables, time):
+def report(all_series, all_tables, time, reference):
     """The tables in Markdown, and what uniform meshes need more."""
-    reference = f"'{all_series[0].name}' with {all_series[0].title} {all_series[0].values[-1]}"
+    finest = f"'{reference.name}' with {reference.title} {reference.values[-1]}"
     parts = [
-        f"### {series.name}\n\n" + markdown(table, series.title, time, reference)
+        f"### {series.name}\n\n" + markdown(table, series.title, time, finest)
         for series, table in zip(all_series, all_tables)
     ]
     if all_series[-1].name == UNIFORM:
+        uniform = all_tables[-1]
+        shown = [name for name in QUANTITIES if np.any(uniform[f"{name}_difference"] > 0)]
         lines = [
             "### unknowns of uniform meshes over those of adaptive meshes with the same error",
             "",
-            "| level | " + " | ".join(name for name in QUANTITIES) + " |",
-            "|" + "---:|" * (1 + len(QUANTITIES)),
+            "| level | series | " + " | ".join(shown) + " |",
+            "|---:|---|" + "---:|" * len(shown),
         ]
-        factors = {name: factor_of_unknowns(all_tables[0], all_tables[-1], name) for name in QUANTITIES}
-        for i, value in enumerate(all_series[-1].values):
-            cells = ["-" if np.isnan(factors[name][i]) else f"{factors[name][i]:.1f}" for name in QUANTITIES]
-            lines.append(f"| {value} | " + " | ".join(cells) + " |")
+        for series, table in zip(all_series[:-1], all_tables):
+            factors = {name: factor_of_unknowns(table, uniform, name) for name in shown}
+            for i, value in enumerate(all_series[-1].values):
+                cells = ["-" if np.isnan(factors[name][i]) else f"{factors[name][i]:.1f}" for name in shown]
+                lines.append(f"| {value} | {series.name} | " + " | ".join(cells) + " |")
         parts.append("\n".join(lines) + "\n")
     return "\n".join(parts)
 
@@ -241,12 +258,13 @@ def study(options):
         if not path.is_file():
             raise ResultsError(f"there is no file '{path}'")
     all_series = make_series(options)
+    reference = reference_series(all_series, options.reference)
     with ThreadPoolExecutor(max(1, options.jobs)) as pool:
         list(pool.map(lambda run: run.complete(options.fresh), [run for series in all_series for run in series.runs]))
 
-    all_tables = tables(all_series, options.time)
+    all_tables = tables(all_series, options.time, reference)
     pd.concat(all_tables).to_csv(options.output / "mesh_study.csv", index=False)
-    text = report(all_series, all_tables, options.time)
+    text = report(all_series, all_tables, options.time, reference)
     (options.output / "mesh_study.md").write_text(text)
 
     import matplotlib

@@ -2,6 +2,7 @@
 #include <gemmule/application/coupled_system.h>
 #include <gemmule/application/initial_membrane.h>
 #include <gemmule/application/wall_cells.h>
+#include <gemmule/geometry/cloud_refinement.h>
 #include <gemmule/geometry/membrane_transport.h>
 #include <gemmule/mesh/box_mesh.h>
 #include <gemmule/parameters/errors.h>
@@ -243,7 +244,10 @@ void CoupledSystem<dim>::adapt_mesh(const MembraneProjection<dim> &membrane,
   if (changed)
   {
     ++n_mesh_changes;
+    n_steps_on_mesh = 0;
     reinit_mesh();
+    refine_cloud(current, triangulation);
+    refine_cloud(previous, triangulation);
   }
 }
 
@@ -320,8 +324,8 @@ void CoupledSystem<dim>::solve_flow(const double time, const double dt,
       dilatational_modulus[c].push_back(
           model.dilatational_modulus(TensorLagrange<dim, 2>::value(surface->total_concentration()[c], q)));
   const SemiImplicitTension<dim> semi_implicit{parameters.time_stepping.tension_implicitness * dt,
-                                               &stiff_tension,
-                                               surface ? &dilatational_modulus : nullptr, old_velocity};
+                                               &stiff_tension, surface ? &dilatational_modulus : nullptr,
+                                               old_velocity};
   SemiImplicitBending<dim> semi_implicit_bending;
   if (bending)
   {
@@ -510,6 +514,7 @@ StepErrors CoupledSystem<dim>::try_step(const double dt)
 template <int dim>
 void CoupledSystem<dim>::accept()
 {
+  ++n_steps_on_mesh;
   dt_preceding = dt_previous;
   dt_previous = dt_trial;
   previous = std::move(current);

@@ -143,9 +143,9 @@ void VesicleProblem<dim>::make_step(StepControl &control)
                 ", dt = " + rounded(dt) + " failed and is repeated with half the size: " + error.what());
       continue;
     }
-    if (control.judge(std::max(error_shape, error_composition) / options.tolerance))
+    if (control.judge(std::max(error_shape, error_composition) / options.tolerance, system->mesh_is_new()))
     {
-      if (control.noise_floor() > 0.)
+      if (control.noise_floor() > 0. && !system->mesh_is_new())
         log->warn_once("noise floor",
                        "at t = " + rounded(control.time()) + " the estimated local error (shape " +
                            rounded(error_shape) + ", composition " + rounded(error_composition) +
@@ -231,6 +231,8 @@ void VesicleProblem<dim>::print_timers()
   text << "finished: t = " << row.time << ", " << row.step << " steps, " << n_rejected << " rejected, "
        << rounded(wall_clock.cpu_time()) << " s CPU (" << rounded(wall_clock.wall_time()) << " s wall clock)";
   log->info(text.str());
+  log->info("  the mesh has changed " + std::to_string(system->mesh_changes()) + " times; " +
+            std::to_string(system->mesh().n_global_active_cells()) + " cells at the end");
   const auto cpu = system->timer().get_summary_data(TimerOutput::total_cpu_time);
   const double total = std::max(wall_clock.cpu_time(), 1e-6);
   for (const auto &[section, seconds] : cpu)

@@ -9,7 +9,7 @@ using namespace dealii;
 
 namespace
 {
-  constexpr double opposite = -0.5; ///< cosine of the angle between the normals
+  constexpr double opposite = -0.8; ///< cosine of the angle between the normals, 143 degrees
   constexpr double facing = 0.5;    ///< cosine of the angle between a normal and the line between two points
   constexpr double thinning = 0.125;
 } // namespace
@@ -84,14 +84,16 @@ double GapCriterion<dim>::gap(const MembraneSample<dim> &sample) const
         if (sample.normal * other.normal > opposite)
           continue;
         const Tensor<1, dim> difference = other.point - sample.point;
-        const double distance = difference.norm(), along_normal = std::abs(difference * sample.normal);
+        const double distance = difference.norm();
         if (distance >= hash.radius)
           continue;
-        // Thinning leaves up to a quarter of the radius along the sheet: closer points face each other
-        // anyway.
-        if (distance > 0.5 * hash.radius && along_normal < facing * distance)
+        // Seen from both points the other one is on the same side, inside or outside. Thinning leaves up to a
+        // quarter of the radius along the sheet: points that are closer face each other anyway.
+        const double here = difference * sample.normal, there = -(difference * other.normal);
+        if (distance > 0.5 * hash.radius &&
+            (here * there < 0. || std::min(std::abs(here), std::abs(there)) < facing * distance))
           continue;
-        narrowest = std::min(narrowest, along_normal);
+        narrowest = std::min(narrowest, 0.5 * std::abs(here + there));
       }
     }
     if (narrowest < hash.radius)

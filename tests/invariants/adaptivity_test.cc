@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 #include <gtest/gtest.h>
+#include <iostream>
 
 #include "support/coupled_run.h"
 
@@ -54,11 +55,11 @@ std::pair<double, double> cut_cell_sizes(const CoupledSystem<2> &system,
 TEST(ParallelAdaptivity, MembraneCloserToTheWallThanACoarseCell)
 {
   // A circle at rest: whatever moves is an error. The cells of the membrane's level are 0.125 large.
-  const double distance = 0.03;
-  AllParameters parameters = coarse_case_with_tension("sqrt((x-0.67)^2+y^2)-0.3");
+  const double distance = 0.04;
+  AllParameters parameters = coarse_case_with_tension("sqrt((x-0.66)^2+y^2)-0.3");
   CoupledSystem<2> system(parameters, MPI_COMM_WORLD);
   system.initialise();
-  const auto near = cut_cell_sizes(system, [](const auto &p) { return p[0] > 0.955; });
+  const auto near = cut_cell_sizes(system, [](const auto &p) { return p[0] > 0.95; });
   EXPECT_LE(near.second, distance / parameters.mesh.cells_per_gap);
   const auto far = cut_cell_sizes(system, [](const auto &p) { return p[0] < 0.6; });
   EXPECT_EQ(far.second, 0.125) << "only what is near the wall is refined";
@@ -91,7 +92,7 @@ TEST(ParallelAdaptivity, TwoVesiclesNearEachOther)
       cut_cell_sizes(system, [](const auto &p) { return std::abs(p[0]) < 0.03 && std::abs(p[1]) < 0.05; });
   EXPECT_LE(between.second, distance / parameters.mesh.cells_per_gap);
   const auto far = cut_cell_sizes(system, [](const auto &p) { return std::abs(p[0]) > 0.4; });
-  EXPECT_EQ(far.second, 0.125);
+  EXPECT_GE(far.second, 0.0625);
   const Rows rows = run_steps(system, 6, 0.01);
   EXPECT_EQ(rows.front().components, 2u);
   EXPECT_EQ(rows.back().components, 2u);
@@ -113,6 +114,8 @@ TEST(ParallelAdaptivity, PhaseBoundaryAcrossCellsOfDifferentLevels)
   parameters.mesh.membrane_level = 3;
   parameters.mesh.phase_boundary_level = 3;
   parameters.mesh.cells_per_phase_boundary = 5.; // 0.31 / 5: level 6
+  parameters.mesh.composition_lower = 0.1;       // the phases have 0.05 and 0.95
+  parameters.mesh.composition_upper = 0.9;
   parameters.mesh.membrane_layers = 1;
   parameters.mesh.remeshing_interval = 1;
   parameters.mesh.cells_per_gap = parameters.mesh.curvature_tolerance = 0.;
@@ -122,26 +125,45 @@ TEST(ParallelAdaptivity, PhaseBoundaryAcrossCellsOfDifferentLevels)
   EXPECT_EQ(sizes.first, std::ldexp(2., -6));
   EXPECT_GE(sizes.second, 4. * sizes.first);
   const Rows rows = run_steps(system, 12, 0.01);
-  EXPECT_GT(system.mesh_changes(), 8u);
+  EXPECT_GT(system.mesh_changes(), 4u);
   EXPECT_LT(largest_drift(rows, &StatisticsRow::mass_f), 1e-11);
   EXPECT_LT(largest_drift(rows, &StatisticsRow::mass_total), 1e-11);
   EXPECT_LT(largest_drift(rows, &StatisticsRow::area), 1e-10);
   for (unsigned int i = 1; i < rows.size(); ++i)
     EXPECT_LT(rows[i].energy_total, rows[i - 1].energy_total + 1e-6) << "step " << i;
+
+  // Nor does it matter that the cells are refined only when the boundaries get there.
+  parameters.mesh.membrane_level = parameters.mesh.phase_boundary_level = 6;
+  CoupledSystem<2> fine(parameters, MPI_COMM_WORLD);
+  fine.initialise();
+  const Rows reference = run_steps(fine, 12, 0.01);
+  EXPECT_NEAR(rows.back().f_total_min, reference.back().f_total_min, 1e-3);
+  EXPECT_NEAR(rows.back().f_total_max, reference.back().f_total_max, 1e-3);
+  EXPECT_NEAR(rows.back().energy_total / reference.back().energy_total, 1., 1e-3);
 }
 
 namespace
 {
-/** A vesicle with two phases that a uniform stream carries to and fro, to have another mesh in every step. */
-Rows carried_to_and_fro(AllParameters parameters, const unsigned int n_steps, unsigned int &mesh_changes)
+/**
+ * A vesicle with two phases that a uniform stream carries to and fro, by about a cell in each step, to have
+ * another mesh in almost every step; until the mesh has changed 200 times, or for n_steps.
+ */
+Rows carried_to_and_fro(AllParameters parameters, unsigned int &n_steps, unsigned int &mesh_changes)
 {
   set_two_phases(parameters, "x-0.05");
   parameters.membrane.cahn_number = 0.1;
   parameters.membrane.level_set = "x^2+1.3*y^2-0.2";
-  parameters.domain.boundary_velocity = "3.5*cos(10*t); 0";
+  parameters.domain.boundary_velocity = "12*cos(40*t); 0";
   CoupledSystem<2> system(parameters, MPI_COMM_WORLD);
   system.initialise();
-  Rows rows = run_steps(system, n_steps, 0.01);
+  Rows rows{statistics_of(system)};
+  for (unsigned int i = 0; i < n_steps && system.mesh_changes() < 200; ++i)
+  {
+    system.try_step(0.01);
+    system.accept();
+    rows.push_back(statistics_of(system));
+  }
+  n_steps = rows.size() - 1;
   mesh_changes = system.mesh_changes();
   return rows;
 }
@@ -156,7 +178,7 @@ TEST(Adaptivity, TwoHundredRemeshingsChangeNoIntegralAndHardlyTheEnergy)
   parameters.mesh.remeshing_interval = 1;
   parameters.mesh.cells_per_gap = parameters.mesh.curvature_tolerance = 0.;
   unsigned int n_changes = 0;
-  const unsigned int n_steps = 225;
+  unsigned int n_steps = 350;
   const Rows adaptive = carried_to_and_fro(parameters, n_steps, n_changes);
   EXPECT_GE(n_changes, 200u);
   EXPECT_LT(largest_drift(adaptive, &StatisticsRow::mass_f), 1e-11);
@@ -168,13 +190,15 @@ TEST(Adaptivity, TwoHundredRemeshingsChangeNoIntegralAndHardlyTheEnergy)
   parameters.mesh.bulk_level = 4;
   const Rows uniform = carried_to_and_fro(parameters, n_steps, n_changes);
   EXPECT_EQ(n_changes, 0u);
+  ASSERT_EQ(uniform.size(), adaptive.size());
   double difference = 0., change = 0.;
   for (unsigned int i = 0; i < uniform.size(); ++i)
   {
     difference = std::max(difference, std::abs(adaptive[i].energy_total - uniform[i].energy_total));
     change = std::max(change, std::abs(uniform[i].energy_total - uniform[0].energy_total));
   }
-  RecordProperty("difference", std::to_string(difference));
+  std::cout << n_steps << " steps: energies differ by " << difference << ", change by " << change
+            << std::endl;
   EXPECT_LT(difference, parameters.time_stepping.tolerance);
   EXPECT_GT(change, 100. * difference) << "the energy falls by " << change;
 }

@@ -100,7 +100,7 @@ class Study(unittest.TestCase):
         # Both have the same error at the same level.
         text = (self.output / "mesh_study.md").read_text()
         self.assertEqual(finished.stdout.strip(), text.strip())
-        self.assertIn("| 6 | 6.4 |", text)
+        self.assertIn("| 6 | adaptive | 6.4 |", text)
         image = matplotlib.image.imread(self.output / "mesh_study.png")
         self.assertGreater(image[..., :3].std(), 0.02)
 
@@ -128,6 +128,7 @@ class Study(unittest.TestCase):
         for arguments, part in (
             (("--values", "5,4"), "do not get finer"),
             (("--values", "4,5", "--series", "a:Mesh/Nothing=1"), "Mesh/Nothing"),
+            (("--values", "4,5", "--reference", "nobody"), "no series 'nobody'"),
         ):
             finished = self.run_study(*arguments)
             self.assertEqual(finished.returncode, 1)

@@ -79,6 +79,8 @@ public:
   unsigned int lowered_levels() const { return adaptation.lowered_levels(); }
   /** How often the mesh has changed since the start. */
   unsigned int mesh_changes() const { return n_mesh_changes; }
+  /** Has the mesh changed within the time levels that the estimated errors of the last try look at? */
+  bool mesh_is_new() const { return n_steps_on_mesh < 3; }
   dealii::TimerOutput &timer() { return timer_output; }
 
 private:
@@ -127,6 +129,7 @@ private:
   double last_area_correction = 0.;
   unsigned int steps_since_remeshing = 0;
   unsigned int n_mesh_changes = 0;
+  unsigned int n_steps_on_mesh = 0; ///< accepted ones since the last change
   std::vector<CellSample<dim>> flow_samples; ///< of the current state; empty if no criterion needs them
 
   MembraneSnapshot<dim> current, previous, trial;

@@ -10,7 +10,7 @@ namespace Gemmule
  * "Cells per gap" cells fit between two sheets of the membrane that face each other, whether the inside (a
  * neck) or the outside (a near-contact) lies between them.
  *
- * Two points belong to sheets that face each other if their normals are more than 120 degrees apart and the
+ * Two points belong to sheets that face each other if their normals are more than 143 degrees apart and the
  * line between them is within 60 degrees of the normals; along one sheet normals turn that far only around a
  * tip, where the distance is the thickness of the tip and counts as well. The width of the gap is the part of
  * their difference along the normal.

@@ -35,14 +35,17 @@ public:
 
   /**
    * @param error estimated local error of the proposed step, in units of the tolerance
+   * @param on_new_mesh whether the mesh has changed within the time levels that the estimate looks at
    * @return whether the step is accepted; time() has then advanced. Otherwise propose() again.
    *
    * An estimate that does not fall in proportion when a step is repeated smaller is not an error of the time
    * discretisation (but, say, of a mesh that is too coarse for the phase boundaries), and no step size mends
    * it: the step is accepted, and what it showed is tolerated in the following steps, see noise_floor().
+   * What shows on a new mesh (the fields of the earlier levels are those of coarser cells) is soon forgotten,
+   * and steps do not grow until then.
    * Throws SimulationError when a rejected step already had the smallest size.
    */
-  bool judge(double error);
+  bool judge(double error, bool on_new_mesh = false);
 
   /**
    * The proposed step could not be computed: the next proposal is half as long.
@@ -66,6 +69,7 @@ private:
   double proposed = 0.;                           ///< step in work
   double rejected_step = 0., rejected_error = 0.; ///< last rejection at this time, if any
   double floor = 0.;
+  bool floor_passes = false;  ///< the floor comes from a change of the mesh
   unsigned int n_halvings;    ///< of the initial step, at the start
   unsigned int n_started = 0; ///< steps of the start that are done; n_halvings + 1: the start is over
 };
