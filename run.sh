@@ -28,6 +28,8 @@ done
 launcher=()
 if ((${NP:-1} > 1)); then
   launcher=(mpirun -n "$NP")
+  # Time to finish a step and save the state before mpirun kills its processes.
+  export OMPI_MCA_odls_base_sigkill_timeout=${OMPI_MCA_odls_base_sigkill_timeout:-600}
   ((EUID != 0)) || export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
 fi
 status=0

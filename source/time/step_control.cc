@@ -21,7 +21,7 @@ namespace
 
 StepControl::StepControl(const Parameters::TimeStepping &parameters, const double start_time,
                          std::vector<double> stops_)
-    : parameters(parameters), now(start_time), stops(std::move(stops_)), wanted(parameters.initial_step)
+    : parameters(parameters), stops(std::move(stops_)), state{start_time, parameters.initial_step}
 {
   Assert(!stops.empty(), dealii::ExcMessage("There must be an end."));
   std::sort(stops.begin(), stops.end());
@@ -29,11 +29,11 @@ StepControl::StepControl(const Parameters::TimeStepping &parameters, const doubl
 
 double StepControl::propose(const double stability_limit)
 {
-  double step = std::min(wanted, parameters.largest_step);
+  double step = std::min(state.wanted, parameters.largest_step);
   if (parameters.adaptive)
     step = std::min(step, stability_limit);
-  const auto next = std::upper_bound(stops.begin(), stops.end(), now + same * step);
-  const double left = (next == stops.end() ? stops.back() : *next) - now;
+  const auto next = std::upper_bound(stops.begin(), stops.end(), state.now + same * step);
+  const double left = (next == stops.end() ? stops.back() : *next) - state.now;
   if (step >= left * (1. - same))
     step = left;
   else if (step > 0.5 * left)
@@ -47,49 +47,50 @@ void StepControl::shrink(const double factor, const std::string &reason)
   if (proposed <= parameters.smallest_step * (1. + same))
   {
     std::ostringstream message;
-    message << "The time step at t = " << now
+    message << "The time step at t = " << state.now
             << " would have to be smaller than 'Smallest time step' = " << parameters.smallest_step << ": "
             << reason << " Refine the mesh, or loosen 'Time stepping/Tolerance'.";
     throw SimulationError(message.str());
   }
-  wanted = std::max(factor * proposed, parameters.smallest_step);
+  state.wanted = std::max(factor * proposed, parameters.smallest_step);
 }
 
 bool StepControl::judge(const double estimate)
 {
   // Whether it is good enough is measured by what can be reached, the step by the part that depends on it.
-  const double error = estimate / std::max(1., 1.5 * floor);
-  const double ideal = safety * std::pow(std::max(estimate - floor, 1e-10), -1. / order_of_local_error);
+  const double error = estimate / std::max(1., 1.5 * state.floor);
+  const double ideal = safety * std::pow(std::max(estimate - state.floor, 1e-10), -1. / order_of_local_error);
   if (parameters.adaptive && error > 1.)
   {
-    const bool falls = rejected_step == 0. || estimate < rejected_error * proposed / rejected_step;
+    const bool falls =
+        state.rejected_step == 0. || estimate < state.rejected_error * proposed / state.rejected_step;
     if (falls)
     {
-      rejected_step = proposed;
-      rejected_error = estimate;
+      state.rejected_step = proposed;
+      state.rejected_error = estimate;
       std::ostringstream reason;
       reason << "the estimated local error is " << estimate << " times the tolerance.";
       shrink(std::clamp(ideal, 0.2, 0.7), reason.str());
       return false;
     }
-    floor = std::max(floor, estimate);
-    wanted = rejected_step;
+    state.floor = std::max(state.floor, estimate);
+    state.wanted = state.rejected_step;
   }
   else if (parameters.adaptive)
   {
-    floor = floor < 0.1 ? 0. : fading * floor;
-    wanted = std::min(std::max(proposed * std::min(ideal, parameters.largest_growth),
-                               // a step cut short by a stop says little about what is possible
-                               ideal >= 1. ? std::min(wanted, proposed * ideal) : 0.),
-                      parameters.largest_step);
+    state.floor = state.floor < 0.1 ? 0. : fading * state.floor;
+    state.wanted = std::min(std::max(proposed * std::min(ideal, parameters.largest_growth),
+                                     // a step cut short by a stop says little about what is possible
+                                     ideal >= 1. ? std::min(state.wanted, proposed * ideal) : 0.),
+                            parameters.largest_step);
   }
-  rejected_step = 0.;
+  state.rejected_step = 0.;
 
-  const auto next = std::upper_bound(stops.begin(), stops.end(), now + same * proposed);
-  now += proposed;
+  const auto next = std::upper_bound(stops.begin(), stops.end(), state.now + same * proposed);
+  state.now += proposed;
   // exactly on the stop, so that round-off does not add up
-  if (next != stops.end() && std::abs(*next - now) < same * proposed)
-    now = *next;
+  if (next != stops.end() && std::abs(*next - state.now) < same * proposed)
+    state.now = *next;
   return true;
 }
 

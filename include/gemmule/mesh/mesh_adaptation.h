@@ -36,6 +36,8 @@ public:
 
   /** Levels that the limit on the number of cells has taken away so far. */
   unsigned int lowered_levels() const { return n_lowered_levels; }
+  /** Continues an earlier run, in which the limit had taken away @p n levels. */
+  void set_lowered_levels(const unsigned int n) { n_lowered_levels = n; }
 
 private:
   using Key = std::array<int, dim>;

@@ -20,8 +20,8 @@ public:
    */
   StepControl(const Parameters::TimeStepping &parameters, double start_time, std::vector<double> stops);
 
-  double time() const { return now; }
-  bool finished() const { return now >= stops.back(); }
+  double time() const { return state.now; }
+  bool finished() const { return state.now >= stops.back(); }
 
   /**
    * Size of the next step: what the controller wants, at most @p stability_limit, cut so that it ends on the
@@ -48,17 +48,25 @@ public:
 
   /** Part of the estimates, in units of the tolerance, that does not depend on the step size; 0 if not
    * noticed. */
-  double noise_floor() const { return floor; }
+  double noise_floor() const { return state.floor; }
+
+  /** What the control remembers between two steps: enough to continue exactly as if never interrupted. */
+  struct Memory
+  {
+    double now = 0.;
+    double wanted = 0.;                             ///< step that the controller would like
+    double rejected_step = 0., rejected_error = 0.; ///< last rejection at this time, if any
+    double floor = 0.;
+  };
+  const Memory &memory() const { return state; }
+  void restore(const Memory &memory) { state = memory; }
 
 private:
   void shrink(double factor, const std::string &reason);
 
   Parameters::TimeStepping parameters;
-  double now;
   std::vector<double> stops;
-  double wanted;                                  ///< step that the controller would like
-  double proposed = 0.;                           ///< step in work
-  double rejected_step = 0., rejected_error = 0.; ///< last rejection at this time, if any
-  double floor = 0.;
+  Memory state;
+  double proposed = 0.; ///< step in work
 };
 } // namespace Gemmule
