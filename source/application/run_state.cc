@@ -38,9 +38,10 @@ void exchange(ArrayExchange &archive, RunState<dim> &state)
                   archive("rejected_step", memory.rejected_step);
                   archive("rejected_error", memory.rejected_error);
                   archive("floor", memory.floor);
+                  archive("n_started", memory.n_started);
                   static_assert(
-                      sizeof(memory) == 5 * sizeof(double),
-                      "StepControl::Memory has a new member: give it a line above, then count it here");
+                      sizeof(memory) == 6 * sizeof(double),
+                      "StepControlMemory has a new member: give it a line above, then count it here");
                 });
 
   std::vector<double> row = to_numbers(state.row);

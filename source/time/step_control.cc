@@ -17,23 +17,37 @@ namespace
   constexpr double order_of_local_error = 3.;
   // How fast an estimate that could not be reduced is forgotten, per step.
   constexpr double fading = 0.99;
+  // Halvings of the initial step for the first one, of first order.
+  constexpr unsigned int largest_number_of_halvings = 4;
 } // namespace
 
 StepControl::StepControl(const Parameters::TimeStepping &parameters, const double start_time,
                          std::vector<double> stops_)
-    : parameters(parameters), stops(std::move(stops_)), state{start_time, parameters.initial_step}
+    : parameters(parameters), stops(std::move(stops_)), n_halvings(largest_number_of_halvings)
 {
+  now = start_time;
   Assert(!stops.empty(), dealii::ExcMessage("There must be an end."));
   std::sort(stops.begin(), stops.end());
+  while (parameters.adaptive && n_halvings > 0 &&
+         std::ldexp(parameters.initial_step, -static_cast<int>(n_halvings)) < parameters.smallest_step)
+    --n_halvings;
+  wanted = start_step();
+}
+
+double StepControl::start_step() const
+{
+  // the first size twice, then each the double of the one before: together one initial step
+  const unsigned int n_doublings = n_started == 0 ? 0 : n_started - 1;
+  return std::ldexp(parameters.initial_step, static_cast<int>(n_doublings) - static_cast<int>(n_halvings));
 }
 
 double StepControl::propose(const double stability_limit)
 {
-  double step = std::min(state.wanted, parameters.largest_step);
+  double step = std::min(wanted, parameters.largest_step);
   if (parameters.adaptive)
     step = std::min(step, stability_limit);
-  const auto next = std::upper_bound(stops.begin(), stops.end(), state.now + same * step);
-  const double left = (next == stops.end() ? stops.back() : *next) - state.now;
+  const auto next = std::upper_bound(stops.begin(), stops.end(), now + same * step);
+  const double left = (next == stops.end() ? stops.back() : *next) - now;
   if (step >= left * (1. - same))
     step = left;
   else if (step > 0.5 * left)
@@ -47,50 +61,58 @@ void StepControl::shrink(const double factor, const std::string &reason)
   if (proposed <= parameters.smallest_step * (1. + same))
   {
     std::ostringstream message;
-    message << "The time step at t = " << state.now
+    message << "The time step at t = " << now
             << " would have to be smaller than 'Smallest time step' = " << parameters.smallest_step << ": "
             << reason << " Refine the mesh, or loosen 'Time stepping/Tolerance'.";
     throw SimulationError(message.str());
   }
-  state.wanted = std::max(factor * proposed, parameters.smallest_step);
+  wanted = std::max(factor * proposed, parameters.smallest_step);
+  n_started = n_halvings + 1;
 }
 
 bool StepControl::judge(const double estimate)
 {
   // Whether it is good enough is measured by what can be reached, the step by the part that depends on it.
-  const double error = estimate / std::max(1., 1.5 * state.floor);
-  const double ideal = safety * std::pow(std::max(estimate - state.floor, 1e-10), -1. / order_of_local_error);
-  if (parameters.adaptive && error > 1.)
+  const double error = estimate / std::max(1., 1.5 * floor);
+  const double ideal = safety * std::pow(std::max(estimate - floor, 1e-10), -1. / order_of_local_error);
+  // A stop can cut a step below the smallest size; repeating it smaller is not possible, and it says nothing
+  // about the size to go on with.
+  const bool is_remainder = proposed < parameters.smallest_step * (1. - same);
+  if (parameters.adaptive && error > 1. && !is_remainder)
   {
-    const bool falls =
-        state.rejected_step == 0. || estimate < state.rejected_error * proposed / state.rejected_step;
+    const bool falls = rejected_step == 0. || estimate < rejected_error * proposed / rejected_step;
     if (falls)
     {
-      state.rejected_step = proposed;
-      state.rejected_error = estimate;
+      rejected_step = proposed;
+      rejected_error = estimate;
       std::ostringstream reason;
       reason << "the estimated local error is " << estimate << " times the tolerance.";
       shrink(std::clamp(ideal, 0.2, 0.7), reason.str());
       return false;
     }
-    state.floor = std::max(state.floor, estimate);
-    state.wanted = state.rejected_step;
+    floor = std::max(floor, estimate);
+    wanted = rejected_step;
   }
-  else if (parameters.adaptive)
+  else if (parameters.adaptive && !is_remainder)
   {
-    state.floor = state.floor < 0.1 ? 0. : fading * state.floor;
-    state.wanted = std::min(std::max(proposed * std::min(ideal, parameters.largest_growth),
-                                     // a step cut short by a stop says little about what is possible
-                                     ideal >= 1. ? std::min(state.wanted, proposed * ideal) : 0.),
-                            parameters.largest_step);
+    floor = floor < 0.1 ? 0. : fading * floor;
+    wanted = std::min(std::max(proposed * std::min(ideal, parameters.largest_growth),
+                               // a step cut short by a stop says little about what is possible
+                               ideal >= 1. ? std::min(wanted, proposed * ideal) : 0.),
+                      parameters.largest_step);
   }
-  state.rejected_step = 0.;
+  if (n_started <= n_halvings)
+  {
+    ++n_started;
+    wanted = start_step();
+  }
+  rejected_step = 0.;
 
-  const auto next = std::upper_bound(stops.begin(), stops.end(), state.now + same * proposed);
-  state.now += proposed;
+  const auto next = std::upper_bound(stops.begin(), stops.end(), now + same * proposed);
+  now += proposed;
   // exactly on the stop, so that round-off does not add up
-  if (next != stops.end() && std::abs(*next - state.now) < same * proposed)
-    state.now = *next;
+  if (next != stops.end() && std::abs(*next - now) < same * proposed)
+    now = *next;
   return true;
 }
 

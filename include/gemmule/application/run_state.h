@@ -12,7 +12,7 @@ template <int dim>
 struct RunState
 {
   CoupledState<dim> system;
-  StepControl::Memory step_control;
+  StepControlMemory step_control;
 
   StatisticsRow row;                ///< of the last accepted step
   InterfaceSamples<dim> membrane;   ///< of the same

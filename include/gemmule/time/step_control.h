@@ -8,11 +8,28 @@
 namespace Gemmule
 {
 /**
+ * What StepControl remembers between two steps: with it another one with the same parameters continues
+ * exactly. A new member needs a line in application/run_state.cc, so that checkpoints have it.
+ */
+struct StepControlMemory
+{
+  double now = 0.;
+  double wanted = 0.;                             ///< step that the controller would like
+  double rejected_step = 0., rejected_error = 0.; ///< last rejection at this time, if any
+  double floor = 0.;
+  unsigned int n_started = 0; ///< steps of the start that are done; n_halvings + 1: the start is over
+};
+
+/**
  * Chooses the time steps: an elementary controller on the local error of a second-order scheme, limits, and
  * the times that have to be hit exactly. Does no computation of its own, so that it can be tested without a
  * simulation.
+ *
+ * Start: BDF2 has no past, so that its first step is backward Euler, of local error O(dt^2). The first
+ * initial step d is therefore split into d/16, d/16, d/8, d/4, d/2, which makes that error 256 times smaller,
+ * at the ratio 2 of successive steps that BDF2 is stable for (1 + sqrt(2)).
  */
-class StepControl
+class StepControl : private StepControlMemory
 {
 public:
   /**
@@ -20,8 +37,8 @@ public:
    */
   StepControl(const Parameters::TimeStepping &parameters, double start_time, std::vector<double> stops);
 
-  double time() const { return state.now; }
-  bool finished() const { return state.now >= stops.back(); }
+  double time() const { return now; }
+  bool finished() const { return now >= stops.back(); }
 
   /**
    * Size of the next step: what the controller wants, at most @p stability_limit, cut so that it ends on the
@@ -48,25 +65,19 @@ public:
 
   /** Part of the estimates, in units of the tolerance, that does not depend on the step size; 0 if not
    * noticed. */
-  double noise_floor() const { return state.floor; }
+  double noise_floor() const { return floor; }
 
-  /** What the control remembers between two steps: enough to continue exactly as if never interrupted. */
-  struct Memory
-  {
-    double now = 0.;
-    double wanted = 0.;                             ///< step that the controller would like
-    double rejected_step = 0., rejected_error = 0.; ///< last rejection at this time, if any
-    double floor = 0.;
-  };
-  const Memory &memory() const { return state; }
-  void restore(const Memory &memory) { state = memory; }
+  const StepControlMemory &memory() const { return *this; }
+  void restore(const StepControlMemory &memory) { static_cast<StepControlMemory &>(*this) = memory; }
 
 private:
   void shrink(double factor, const std::string &reason);
+  /** Size of the next step of the start. */
+  double start_step() const;
 
   Parameters::TimeStepping parameters;
   std::vector<double> stops;
-  Memory state;
-  double proposed = 0.; ///< step in work
+  double proposed = 0.;    ///< step in work
+  unsigned int n_halvings; ///< of the initial step, at the start
 };
 } // namespace Gemmule
