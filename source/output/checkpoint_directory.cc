@@ -142,7 +142,8 @@ void CheckpointDirectory::complete(const Metadata &metadata, const unsigned int 
     synchronise(path + "/" + file);
     text << file_prefix << file << " = " << to_text(Checksum::of_file(path + "/" + file)) << '\n';
   }
-  text << last_line_prefix << hexadecimal(Checksum::of_text(text.str()).crc) << '\n';
+  const Checksum of_lines_above = Checksum::of_text(text.str());
+  text << last_line_prefix << hexadecimal(of_lines_above.crc) << '\n';
 
   replace_file(path + "/" + metadata_name, text.str(), /*durable =*/true);
   synchronise(path);

@@ -139,6 +139,8 @@ void FieldWriter<dim>::write(const dealii::DataOutInterface<dim, dim> &data, con
                  provenance.write(file);
                  file.set_attribute("/", "time", time);
                  file.close();
+                 // Checkpoints count on it.
+                 synchronise(path);
                  entries.push_back(entry);
                  replace_file(directory + "/solution.xdmf", xdmf_text<dim>(entries));
                });

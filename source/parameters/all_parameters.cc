@@ -195,8 +195,9 @@ std::map<std::string, std::string> AllParameters::values() const
   AllParameters copy(*this);
   dealii::ParameterHandler prm;
   copy.add_parameters(prm);
+  const Schema schema(prm);
   std::map<std::string, std::string> values;
-  for (const auto &[name, entry] : Schema(prm).entries())
+  for (const auto &[name, entry] : schema.entries())
     values[name] = entry.value;
   return values;
 }
