@@ -137,9 +137,10 @@ TEST_F(Resume, RefusesOtherParametersAndNamesThem)
   // The directory may have another name now.
   std::filesystem::rename(results(), directory.file("elsewhere"));
   const Result allowed = run_gemmule(
-      directory, run("--resume --output elsewhere --set 'End time=0.004' "
-                     "--set 'Output/Output times=0.003' --set 'Checkpoint/Number of checkpoints kept=1' "
-                     "--set 'Checkpoint/Steps between checkpoints=1' --set 'Output/Progress line=true'"));
+      directory, run("--resume --set 'End time=0.004' --set 'Output/Output times=0.003' "
+                     "--set 'Checkpoint/Number of checkpoints kept=1' "
+                     "--set 'Checkpoint/Steps between checkpoints=1' --set 'Output/Progress line=true'",
+                     "elsewhere"));
   EXPECT_EQ(allowed.exit_code, 0) << allowed.err;
 }
 
@@ -180,7 +181,7 @@ TEST_F(Resume, ProvenanceIsInTheLogAndInEveryHdf5File)
       for (const std::string &name : names)
         ASSERT_TRUE(file.has_attribute("/", name)) << name << " in " << entry.path();
       EXPECT_NE(file.text_attribute("/", "libraries").find("Trilinos"), std::string::npos);
-      EXPECT_NE(file.text_attribute("/", "command_line").find("quick.prm"), std::string::npos);
+      EXPECT_NE(file.text_attribute("/", "command_line").find("case.prm"), std::string::npos);
       const std::string parameters = file.text_attribute("/", "parameters");
       EXPECT_NE(parameters.find("End time = 0.002\n"), std::string::npos) << parameters;
       EXPECT_EQ(parameters.find("Output directory"), std::string::npos) << "says nothing of this computer";

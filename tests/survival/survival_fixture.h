@@ -14,19 +14,34 @@
 namespace Gemmule::Testing
 {
 /**
- * Two phases that the flow carries through the box, so that the mesh is refined and coarsened, with steps that
- * grow and output at other times than theirs; about forty steps of a tenth of a second.
+ * Two phases that the flow carries through the box, so that the mesh is refined and coarsened, with steps
+ * that grow and output at other times than theirs; about forty steps of a tenth of a second.
  */
-inline std::string small_run()
-{
-  return std::string(GEMMULE_SOURCE_DIRECTORY) +
-         "/parameters/examples/quick.prm --set 'Domain/Boundary velocity=1; 0' "
-         "--set 'Membrane/Level set=(x+0.1)^2+2*y^2-0.25' --set 'Membrane/Cahn number=0.1' "
-         "--set 'Membrane/Initial concentration=0.5+0.4*tanh(6*x)' --set 'Mesh/Remeshing interval=3' "
-         "--set 'Mesh/Membrane level=4' --set 'Mesh/Phase boundary level=5' "
-         "--set 'Time stepping/Largest time step=0.01' --set 'End time=0.15' "
-         "--set 'Output/Field output interval=0.04' --set 'Output/Interface output interval=0.02' ";
-}
+inline const std::string small_case = R"(
+set End time = 0.15
+subsection Domain
+  set Boundary velocity = 1; 0
+end
+subsection Membrane
+  set Level set             = (x+0.1)^2+2*y^2-0.25
+  set Cahn number           = 0.1
+  set Initial concentration = 0.5+0.4*tanh(6*x)
+end
+subsection Mesh
+  set Bulk level           = 3
+  set Membrane level       = 4
+  set Phase boundary level = 5
+  set Remeshing interval   = 3
+end
+subsection Time stepping
+  set Largest time step = 0.01
+end
+subsection Output
+  set Field output interval     = 0.04
+  set Interface output interval = 0.02
+  set Progress line             = false
+end
+)";
 
 /** Columns of statistics.csv with their entries as text, so that a comparison is exact. */
 using TextTable = std::map<std::string, std::vector<std::string>>;
@@ -162,11 +177,13 @@ private:
 class Survival : public testing::Test
 {
 protected:
+  Survival() { directory.write("case.prm", small_case); }
   static void SetUpTestSuite()
   {
     reference_directory = new TemporaryDirectory;
     const auto start = std::chrono::steady_clock::now();
-    const Result result = run_gemmule(*reference_directory, small_run() + "--output reference");
+    reference_directory->write("case.prm", small_case);
+    const Result result = run_gemmule(*reference_directory, "case.prm --output reference");
     ASSERT_EQ(result.exit_code, 0) << result.err;
     reference_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     ASSERT_GE(n_rows(reference()), 30u) << "the run has to be long enough to be interrupted";
@@ -181,9 +198,9 @@ protected:
 
   std::string results() const { return directory.file("run"); }
   /** Arguments of the run under test. */
-  std::string run(const std::string &options = "") const
+  std::string run(const std::string &options = "", const std::string &output = "run") const
   {
-    return small_run() + "--output run --set 'Output/Progress line=false' " + options;
+    return "case.prm --output " + output + " " + options;
   }
   std::string log() const { return directory.read("run/log.txt"); }
   /** Numbers of the checkpoints on disk that say that they are complete. */
