@@ -91,6 +91,7 @@ void AllParameters::add_parameters(dealii::ParameterHandler &prm)
   fluid.add_parameters(prm);
   membrane.add_parameters(prm);
   regularisation.add_parameters(prm);
+  bending.add_parameters(prm);
   arclength.add_parameters(prm);
   mesh.add_parameters(prm);
   flow.add_parameters(prm);
@@ -110,6 +111,7 @@ void AllParameters::check() const
   fluid.check();
   membrane.check();
   regularisation.check();
+  bending.check();
   arclength.check();
   mesh.check();
   flow.check();
