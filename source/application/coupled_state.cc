@@ -25,12 +25,13 @@ namespace
     field("velocity", &Fields::velocity);
     field("displacement", &Fields::displacement);
     field("previous_velocity", &Fields::previous_velocity);
+    field("tension_velocity", &Fields::tension_velocity);
     field("previous_concentration", &Fields::previous_concentration);
     field("preceding_concentration", &Fields::preceding_concentration);
     field("concentration", &Fields::concentration);
     field("total_concentration", &Fields::total_concentration);
     field("chemical_potential", &Fields::chemical_potential);
-    static_assert(sizeof(Fields) == sizeof(double) * Fields::n * (3 * dim + 5),
+    static_assert(sizeof(Fields) == sizeof(double) * Fields::n * (4 * dim + 5),
                   "MembraneFields has a new field: give it a line above, then count it here");
   }
 

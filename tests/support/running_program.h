@@ -16,9 +16,8 @@ namespace Gemmule::Testing
 class RunningProgram
 {
 public:
-  /** @param largest_file limit of the size of files in bytes, for what a full disk does; 0: none */
   RunningProgram(const TemporaryDirectory &directory, const std::string &arguments,
-                 const unsigned int n_processes = 1, const rlim_t largest_file = 0)
+                 const unsigned int n_processes = 1)
   {
     const std::string launcher =
         n_processes == 1 ? "" : "mpirun --oversubscribe -n " + std::to_string(n_processes) + " ";
@@ -30,11 +29,6 @@ public:
     process = fork();
     if (process != 0)
       return;
-    if (largest_file > 0)
-    {
-      const rlimit limit{largest_file, largest_file};
-      setrlimit(RLIMIT_FSIZE, &limit);
-    }
     execl("/bin/sh", "sh", "-c", command.c_str(), static_cast<char *>(nullptr));
     _exit(127);
   }
@@ -50,6 +44,13 @@ public:
   RunningProgram &operator=(const RunningProgram &) = delete;
 
   void send(const int signal) const { kill(process, signal); }
+
+  /** Lets no file grow beyond this size, in bytes: what a full disk does. */
+  void limit_files(const rlim_t largest_size) const
+  {
+    const rlimit limit{largest_size, largest_size};
+    prlimit(process, RLIMIT_FSIZE, &limit, nullptr);
+  }
 
   bool is_running()
   {

@@ -63,7 +63,7 @@ TEST_F(Resume, AnotherNumberOfRanksAgreesToSolverTolerance)
   ASSERT_EQ(stop_after(n_rows(results()) + 6, SIGUSR1, "--resume", 2), 3) << directory.read(".stderr");
   EXPECT_NE(log().find("2 process(es)"), std::string::npos);
   resume_to_the_end();
-  Comparison(1e-7).results(reference(), results());
+  Comparison(1e-5).results(reference(), results());
 }
 
 TEST_F(Resume, CheckpointsComeAfterTheGivenNumberOfStepsAndTheLastAreKept)
@@ -146,21 +146,26 @@ TEST_F(Resume, RefusesOtherParametersAndNamesThem)
 
 TEST_F(Resume, AFailureSavesTheLastAcceptedState)
 {
-  const std::string failing = std::string(GEMMULE_SOURCE_DIRECTORY) +
-                              "/parameters/verification/ellipse_constant_tension.prm --output run "
-                              "--set 'Time stepping/Tolerance=1e-14' "
-                              "--set 'Time stepping/Smallest time step=9e-4' ";
+  // The flow carries the membrane to the wall within a few steps.
+  const std::string failing = run("--set 'Domain/Boundary velocity=20; 0' --set 'Time stepping/Tolerance=1' "
+                                  "--set 'Time stepping/Initial time step=0.004' "
+                                  "--set 'Time stepping/Smallest time step=0.002' ");
   const Result first = run_gemmule(directory, failing);
-  EXPECT_EQ(first.exit_code, 2);
+  ASSERT_EQ(first.exit_code, 2) << first.out;
+  EXPECT_NE(first.err.find("wall"), std::string::npos) << first.err;
+  const std::size_t n_accepted = n_rows(results());
+  EXPECT_GT(n_accepted, 1u);
   EXPECT_NE(log().find("its state in run/checkpoint/00001"), std::string::npos) << log();
   ASSERT_EQ(complete_checkpoints().size(), 1u);
+  const auto n_groups = [this]
+  { return Gemmule::Hdf5File(results() + "/interface.h5", Gemmule::Hdf5File::Mode::read).members().size(); };
+  EXPECT_EQ(n_groups(), 3u) << "at t = 0, 0.02, and the last";
   // It is resumed, and fails in the same way, without doubled output.
   const Result second = run_gemmule(directory, failing + "--resume");
   EXPECT_EQ(second.exit_code, 2);
   EXPECT_EQ(first.err, second.err);
-  EXPECT_EQ(n_rows(results()), 1u);
-  const Gemmule::Hdf5File file(results() + "/interface.h5", Gemmule::Hdf5File::Mode::read);
-  EXPECT_EQ(file.members().size(), 1u);
+  EXPECT_EQ(n_rows(results()), n_accepted);
+  EXPECT_EQ(n_groups(), 3u);
 }
 
 TEST_F(Resume, ProvenanceIsInTheLogAndInEveryHdf5File)
