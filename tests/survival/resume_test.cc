@@ -66,6 +66,20 @@ TEST_F(Resume, AnotherNumberOfRanksAgreesToSolverTolerance)
   Comparison(1e-5).results(reference(), results());
 }
 
+TEST_F(Resume, BendingAndTheArclengthMultiplierContinueBitwise)
+{
+  // They carry more from step to step.
+  const std::string options = "--set 'Membrane/Bending/Rigidity at composition 0=1e-3' "
+                              "--set 'Membrane/Bending/Rigidity at composition 1=2e-3' "
+                              "--set 'Membrane/Arclength constraint/Model=multiplier' --set 'End time=0.01' ";
+  const Result uninterrupted = run_gemmule(directory, run(options, "uninterrupted"));
+  ASSERT_EQ(uninterrupted.exit_code, 0) << uninterrupted.err;
+  ASSERT_EQ(stop_after(6, SIGTERM, options), 3) << directory.read(".stderr");
+  EXPECT_LT(n_rows(results()), n_rows(directory.file("uninterrupted")));
+  resume_to_the_end(options);
+  Comparison().results(directory.file("uninterrupted"), results());
+}
+
 TEST_F(Resume, CheckpointsComeAfterTheGivenNumberOfStepsAndTheLastAreKept)
 {
   const Result result = run_gemmule(
