@@ -84,7 +84,10 @@ namespace
 template <int dim>
 CoupledSystem<dim>::CoupledSystem(const AllParameters &parameters_, const MPI_Comm communicator_)
     : parameters(parameters_), communicator(communicator_),
-      triangulation(communicator, dealii::Triangulation<dim>::MeshSmoothing::none),
+      // Rebuilt after each change, the order of the cells does not depend on the history of the mesh: a
+      // resumed run sums in the same order as one that was never interrupted.
+      triangulation(communicator, dealii::Triangulation<dim>::MeshSmoothing::none,
+                    Triangulation::mesh_reconstruction_after_repartitioning),
       origin(
           [this]
           {

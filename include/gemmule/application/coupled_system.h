@@ -1,5 +1,6 @@
 #pragma once
 
+#include <gemmule/application/coupled_state.h>
 #include <gemmule/application/step_errors.h>
 #include <gemmule/flow/stokes_solver.h>
 #include <gemmule/geometry/cut_geometry.h>
@@ -38,6 +39,15 @@ public:
    * Throws UserError when there is no membrane in the box, or it touches the wall.
    */
   void initialise();
+
+  /** What is needed to continue from the current (accepted) state. Collective. */
+  CoupledState<dim> state() const;
+
+  /**
+   * Instead of initialise(): continues from state() of a run with the same parameters, on any number of
+   * ranks. Throws SimulationError when that is impossible. Collective.
+   */
+  void restore(const CoupledState<dim> &state);
 
   /**
    * Computes the state at time() + dt. Throws SimulationError when that is impossible; accept() or another
