@@ -1,6 +1,7 @@
 #include <gemmule/application/command_line.h>
 #include <gemmule/parameters/errors.h>
 #include <gemmule/parameters/suggestion.h>
+#include <gemmule/parameters/text.h>
 #include <gemmule/version.h>
 
 #include <deal.II/base/config.h>
@@ -51,12 +52,13 @@ Exit codes:
       if (argument.size() > 1 && argument[0] == '-')
       {
         const std::string similar = Parameters::nearest(argument.substr(0, argument.find('=')), options);
-        throw UserError("unknown option '" + argument + "'." +
+        throw UserError("unknown option " + Parameters::in_quotes(argument) + "." +
                         (similar.empty() ? "" : " Did you mean '" + similar + "'?") + see_help);
       }
     if (!remaining.empty())
-      throw UserError("there is more than one parameter file: '" + case_file + "' and '" + remaining.front() +
-                      "'. Give one; put values with blanks in quotation marks." + see_help);
+      throw UserError("there is more than one parameter file: " + Parameters::in_quotes(case_file) + " and " +
+                      Parameters::in_quotes(remaining.front()) +
+                      ". Give one; put values with blanks in quotation marks." + see_help);
   }
 } // namespace
 

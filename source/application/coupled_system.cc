@@ -1,5 +1,6 @@
 #include <gemmule/algebra/gather.h>
 #include <gemmule/application/coupled_system.h>
+#include <gemmule/application/initial_checks.h>
 #include <gemmule/geometry/membrane_transport.h>
 #include <gemmule/mesh/box_mesh.h>
 #include <gemmule/parameters/errors.h>
@@ -7,7 +8,6 @@
 
 #include <cmath>
 #include <limits>
-#include <sstream>
 
 namespace Gemmule
 {
@@ -42,16 +42,7 @@ namespace
     return raised;
   }
 
-  template <int dim>
-  std::string coordinates(const Point<dim> &p)
-  {
-    std::ostringstream text;
-    text.precision(3);
-    for (unsigned int d = 0; d < dim; ++d)
-      text << (d == 0 ? "" : ", ") << p[d];
-    return text.str();
-  }
-
+  /** @throws ParameterError where the function is not finite */
   template <int dim>
   bool lattice_sign_change(const Function<dim> &function, const Point<dim> &corner, const double h)
   {
@@ -63,7 +54,10 @@ namespace
       Point<dim> p = corner;
       for (unsigned int d = 0, rest = i; d < dim; ++d, rest /= n + 1)
         p[d] += h * (rest % (n + 1)) / n;
-      (function.value(p) < 0. ? negative : positive) = true;
+      const double value = function.value(p);
+      if (!std::isfinite(value))
+        check_finite(function, {p}, "Membrane/Level set");
+      (value < 0. ? negative : positive) = true;
     }
     return negative && positive;
   }
@@ -112,29 +106,36 @@ void CoupledSystem<dim>::make_initial_mesh()
   const auto total_concentration = make_function<dim>(parameters.membrane.initial_total_concentration, 1,
                                                       "Membrane/Initial total concentration");
 
+  const InitialChecks<dim> checks(parameters);
+
   // Towards the membrane as the expression has it, until it is resolved.
   for (unsigned int level = parameters.mesh.bulk_level; level <= parameters.mesh.membrane_level; ++level)
   {
-    unsigned int n_crossed = 0, n_inside = 0;
+    unsigned int n_crossed = 0, n_negative = 0;
+    std::string not_finite;
     for (const auto &cell : triangulation.active_cell_iterators())
-      if (cell->is_locally_owned())
+      if (cell->is_locally_owned() && not_finite.empty())
       {
         if (shape->value(cell->center()) < 0.)
-          ++n_inside;
-        if (lattice_sign_change(*shape, cell->vertex(0), cell->extent_in_direction(0)))
+          ++n_negative;
+        try
         {
-          ++n_crossed;
-          if (cell->level() < static_cast<int>(parameters.mesh.membrane_level))
-            cell->set_refine_flag();
+          if (!lattice_sign_change(*shape, cell->vertex(0), cell->extent_in_direction(0)))
+            continue;
         }
+        catch (const ParameterError &error)
+        {
+          not_finite = error.complaint;
+          continue;
+        }
+        ++n_crossed;
+        if (cell->level() < static_cast<int>(parameters.mesh.membrane_level))
+          cell->set_refine_flag();
       }
-    if (Utilities::MPI::sum(n_crossed, communicator) == 0)
-      throw UserError(
-          "Membrane/Level set: '" + parameters.membrane.level_set + "' has no zero in the box: it is " +
-          (Utilities::MPI::sum(n_inside, communicator) > 0 ? "negative" : "positive") +
-          " everywhere. Give a function that is negative inside the vesicle and positive outside, "
-          "for example x^2+2*y^2-0.25, or a finer 'Mesh/Bulk level' if the vesicle is tiny.");
+    checks.level_set(n_crossed, n_negative, not_finite, communicator);
     triangulation.execute_coarsening_and_refinement();
+    checks.number_of_cells(triangulation.n_global_active_cells(),
+                           std::min(level + 1, parameters.mesh.membrane_level));
   }
 
   // Then as the criteria want it, with the initial composition.
@@ -146,7 +147,7 @@ void CoupledSystem<dim>::make_initial_mesh()
     check_initial_wall();
     const auto patches = gather_patches(
         geometry.cut_cells(), std::vector<MembraneFields<dim>>(geometry.cut_cells().size()), communicator);
-    const MembraneProjection<dim> membrane(patches, origin);
+    const MembraneProjection<dim> membrane = checks.project(patches, origin);
     std::vector<MembraneSample<dim>> wanted;
     std::vector<Point<dim>> points;
     for (const auto &s : membrane.samples())
@@ -160,16 +161,7 @@ void CoupledSystem<dim>::make_initial_mesh()
       points.push_back(s.point);
     }
     if (surface)
-    {
-      check_finite(*concentration, points, "Membrane/Initial concentration");
-      check_finite(*total_concentration, points, "Membrane/Initial total concentration");
-      for (const auto &p : points)
-        if (total_concentration->value(p) <= 0.)
-          throw ParameterError("Membrane/Initial total concentration",
-                               "'" + parameters.membrane.initial_total_concentration +
-                                   "' is not positive at (" + coordinates(p) +
-                                   ") on the membrane. Give an expression that is positive there.");
-    }
+      checks.concentrations(*concentration, *total_concentration, points);
     else
       check_finite(*prescribed_tension, points, "Membrane/Prescribed tension");
     if (!adaptation.adapt(wanted))
@@ -181,8 +173,12 @@ void CoupledSystem<dim>::make_initial_mesh()
   geometry.reinit(level_set.get_dof_handler(), level_set.values());
   const auto patches = gather_patches(
       geometry.cut_cells(), std::vector<MembraneFields<dim>>(geometry.cut_cells().size()), communicator);
-  level_set.set_distance(MembraneProjection<dim>(patches, origin));
+  const MembraneProjection<dim> membrane = checks.project(patches, origin);
+  checks.membrane(*shape, membrane);
+  const double area = geometry.enclosed_volume(), arclength = geometry.measure();
+  level_set.set_distance(membrane);
   geometry.reinit(level_set.get_dof_handler(), level_set.values());
+  checks.distance(area, geometry.enclosed_volume(), arclength, geometry.measure());
   if (surface)
     surface->initialise(geometry, level_set.get_dof_handler(), level_set.values(), *concentration,
                         *total_concentration);
@@ -201,6 +197,7 @@ void CoupledSystem<dim>::initialise()
   for (unsigned int c = 0; c < at_rest.size(); ++c)
     for (unsigned int i = 0; i < MembraneFields<dim>::n; ++i)
       at_rest[c].previous_velocity[i] = raise_degree<dim>(flow.membrane_velocity()[c].nodal)[i];
+  InitialChecks<dim>(parameters).flow(flow.max_velocity());
   current = take_snapshot(0., at_rest);
   current_capillary_step = compute_capillary_time_step();
 }
@@ -228,15 +225,14 @@ template <int dim>
 void CoupledSystem<dim>::check_initial_wall() const
 {
   const WallCells count = count_wall_cells();
-  const std::string expression = "Membrane/Level set: '" + parameters.membrane.level_set + "' ";
+  const InitialChecks<dim> checks(parameters);
   if (count.inside == count.all)
-    throw UserError(expression +
-                    "is negative along all walls of the box, but has to be positive outside the vesicle. "
-                    "Change its sign: -(" +
-                    parameters.membrane.level_set + ").");
+    checks.fail_level_set(
+        "is negative along all walls of the box, but has to be positive outside the vesicle. "
+        "Change its sign: -(" +
+        parameters.membrane.level_set + ").");
   if (count.not_outside > 0)
-    throw UserError(
-        expression +
+    checks.fail_level_set(
         "describes a membrane that touches a wall of the box, comes closer to it than one cell, or leaves "
         "the box. Enlarge the box (Domain/Lower corner, Domain/Upper corner) or make the vesicle smaller.");
 }
