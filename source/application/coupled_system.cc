@@ -1,6 +1,7 @@
-#include <gemmule/algebra/gather.h>
 #include <gemmule/application/coupled_system.h>
 #include <gemmule/application/initial_checks.h>
+#include <gemmule/application/initial_membrane.h>
+#include <gemmule/application/wall_cells.h>
 #include <gemmule/geometry/membrane_transport.h>
 #include <gemmule/mesh/box_mesh.h>
 #include <gemmule/parameters/errors.h>
@@ -42,25 +43,6 @@ namespace
     return raised;
   }
 
-  /** @throws ParameterError where the function is not finite */
-  template <int dim>
-  bool lattice_sign_change(const Function<dim> &function, const Point<dim> &corner, const double h)
-  {
-    constexpr unsigned int n = 8;
-    bool negative = false, positive = false;
-    const unsigned int n_points = dim == 2 ? (n + 1) * (n + 1) : (n + 1) * (n + 1) * (n + 1);
-    for (unsigned int i = 0; i < n_points; ++i)
-    {
-      Point<dim> p = corner;
-      for (unsigned int d = 0, rest = i; d < dim; ++d, rest /= n + 1)
-        p[d] += h * (rest % (n + 1)) / n;
-      const double value = function.value(p);
-      if (!std::isfinite(value))
-        check_finite(function, {p}, "Membrane/Level set");
-      (value < 0. ? negative : positive) = true;
-    }
-    return negative && positive;
-  }
 } // namespace
 
 template <int dim>
@@ -98,96 +80,16 @@ void CoupledSystem<dim>::reinit_mesh()
 }
 
 template <int dim>
-void CoupledSystem<dim>::make_initial_mesh()
-{
-  const auto shape = make_function<dim>(parameters.membrane.level_set, 1, "Membrane/Level set");
-  const auto concentration =
-      make_function<dim>(parameters.membrane.initial_concentration, 1, "Membrane/Initial concentration");
-  const auto total_concentration = make_function<dim>(parameters.membrane.initial_total_concentration, 1,
-                                                      "Membrane/Initial total concentration");
-
-  const InitialChecks<dim> checks(parameters);
-
-  // Towards the membrane as the expression has it, until it is resolved.
-  for (unsigned int level = parameters.mesh.bulk_level; level <= parameters.mesh.membrane_level; ++level)
-  {
-    unsigned int n_crossed = 0, n_negative = 0;
-    std::string not_finite;
-    for (const auto &cell : triangulation.active_cell_iterators())
-      if (cell->is_locally_owned() && not_finite.empty())
-      {
-        if (shape->value(cell->center()) < 0.)
-          ++n_negative;
-        try
-        {
-          if (!lattice_sign_change(*shape, cell->vertex(0), cell->extent_in_direction(0)))
-            continue;
-        }
-        catch (const ParameterError &error)
-        {
-          not_finite = error.complaint;
-          continue;
-        }
-        ++n_crossed;
-        if (cell->level() < static_cast<int>(parameters.mesh.membrane_level))
-          cell->set_refine_flag();
-      }
-    checks.level_set(n_crossed, n_negative, not_finite, communicator);
-    triangulation.execute_coarsening_and_refinement();
-    checks.number_of_cells(triangulation.n_global_active_cells(),
-                           std::min(level + 1, parameters.mesh.membrane_level));
-  }
-
-  // Then as the criteria want it, with the initial composition.
-  for (unsigned int sweep = 0; sweep < 12; ++sweep)
-  {
-    level_set.reinit_mesh();
-    level_set.interpolate(*shape);
-    geometry.reinit(level_set.get_dof_handler(), level_set.values());
-    check_initial_wall();
-    const auto patches = gather_patches(
-        geometry.cut_cells(), std::vector<MembraneFields<dim>>(geometry.cut_cells().size()), communicator);
-    const MembraneProjection<dim> membrane = checks.project(patches, origin);
-    std::vector<MembraneSample<dim>> wanted;
-    std::vector<Point<dim>> points;
-    for (const auto &s : membrane.samples())
-    {
-      MembraneSample<dim> sample;
-      sample.point = s.point;
-      sample.curvature = membrane.curvature(s);
-      if (surface)
-        sample.composition = concentration->value(s.point) / total_concentration->value(s.point);
-      wanted.push_back(sample);
-      points.push_back(s.point);
-    }
-    if (surface)
-      checks.concentrations(*concentration, *total_concentration, points);
-    else
-      check_finite(*prescribed_tension, points, "Membrane/Prescribed tension");
-    if (!adaptation.adapt(wanted))
-      break;
-  }
-
-  reinit_mesh();
-  level_set.interpolate(*shape);
-  geometry.reinit(level_set.get_dof_handler(), level_set.values());
-  const auto patches = gather_patches(
-      geometry.cut_cells(), std::vector<MembraneFields<dim>>(geometry.cut_cells().size()), communicator);
-  const MembraneProjection<dim> membrane = checks.project(patches, origin);
-  checks.membrane(*shape, membrane);
-  const double area = geometry.enclosed_volume(), arclength = geometry.measure();
-  level_set.set_distance(membrane);
-  geometry.reinit(level_set.get_dof_handler(), level_set.values());
-  checks.distance(area, geometry.enclosed_volume(), arclength, geometry.measure());
-  if (surface)
-    surface->initialise(geometry, level_set.get_dof_handler(), level_set.values(), *concentration,
-                        *total_concentration);
-}
-
-template <int dim>
 void CoupledSystem<dim>::initialise()
 {
-  make_initial_mesh();
+  {
+    const InitialMembrane<dim> initial(parameters, communicator);
+    initial.make_mesh(triangulation, level_set, geometry, adaptation);
+    reinit_mesh();
+    initial.make_level_set(origin, level_set, geometry);
+    if (surface)
+      initial.make_phases(level_set, geometry, *surface);
+  }
   area_0 = geometry.enclosed_volume();
   arclength_0 = parameters.arclength.reference_arclength > 0. ? parameters.arclength.reference_arclength
                                                               : geometry.measure();
@@ -203,44 +105,9 @@ void CoupledSystem<dim>::initialise()
 }
 
 template <int dim>
-typename CoupledSystem<dim>::WallCells CoupledSystem<dim>::count_wall_cells() const
-{
-  WallCells count;
-  for (const auto &cell : triangulation.active_cell_iterators())
-    if (cell->is_locally_owned() && cell->at_boundary())
-    {
-      ++count.all;
-      // Cut cells count as well: the flow needs whole cells of the outer fluid where the velocity is
-      // prescribed.
-      count.not_outside += geometry.is_active(cell->active_cell_index(), 0);
-      count.inside += geometry.location(cell->active_cell_index()) == CellLocation::inside;
-    }
-  count.all = Utilities::MPI::sum(count.all, communicator);
-  count.not_outside = Utilities::MPI::sum(count.not_outside, communicator);
-  count.inside = Utilities::MPI::sum(count.inside, communicator);
-  return count;
-}
-
-template <int dim>
-void CoupledSystem<dim>::check_initial_wall() const
-{
-  const WallCells count = count_wall_cells();
-  const InitialChecks<dim> checks(parameters);
-  if (count.inside == count.all)
-    checks.fail_level_set(
-        "is negative along all walls of the box, but has to be positive outside the vesicle. "
-        "Change its sign: -(" +
-        parameters.membrane.level_set + ").");
-  if (count.not_outside > 0)
-    checks.fail_level_set(
-        "describes a membrane that touches a wall of the box, comes closer to it than one cell, or leaves "
-        "the box. Enlarge the box (Domain/Lower corner, Domain/Upper corner) or make the vesicle smaller.");
-}
-
-template <int dim>
 void CoupledSystem<dim>::check_wall() const
 {
-  if (count_wall_cells().not_outside > 0)
+  if (count_wall_cells(triangulation, geometry, communicator).not_outside > 0)
     throw SimulationError("The membrane has reached the wall of the box. Use a larger box, or end earlier.");
 }
 
@@ -396,10 +263,11 @@ CoupledSystem<dim>::take_snapshot(const double time,
 }
 
 template <int dim>
-typename CoupledSystem<dim>::StepErrors CoupledSystem<dim>::try_step(const double dt)
+StepErrors CoupledSystem<dim>::try_step(const double dt)
 {
   const double time = current.time + dt;
   const bool first = dt_previous == 0.;
+  const StepSizes steps{dt, dt_previous, dt_preceding};
   const BdfCoefficients bdf =
       first ? BdfCoefficients::first_order() : BdfCoefficients::second_order(dt / dt_previous);
   const MembraneProjection<dim> membrane(current.patches, origin);
@@ -424,24 +292,10 @@ typename CoupledSystem<dim>::StepErrors CoupledSystem<dim>::try_step(const doubl
   {
     TimerOutput::Scope scope(timer_output, "surface: phases");
     const unsigned int n_cells = geometry.cut_cells().size();
-    // quadratic extrapolation along the trajectories as soon as there are three levels, else what there is
-    const bool three_levels = dt_preceding > 0.;
-    const double t1 = -dt_previous, t2 = -dt_previous - dt_preceding;
     CutCellVector<dim> velocity(n_cells);
-    predicted.resize(n_cells);
     for (unsigned int c = 0; c < n_cells; ++c)
-    {
       velocity[c] = transported[c].advecting_velocity;
-      for (unsigned int i = 0; i < MembraneFields<dim>::n; ++i)
-      {
-        const double f0 = transported[c].concentration[i], f1 = transported[c].previous_concentration[i],
-                     f2 = transported[c].preceding_concentration[i];
-        predicted[c][i] = three_levels ? f0 * (dt - t1) * (dt - t2) / (t1 * t2) +
-                                             f1 * dt * (dt - t2) / (t1 * (t1 - t2)) +
-                                             f2 * dt * (dt - t1) / (t2 * (t2 - t1))
-                                       : bdf.e1 * f0 + (first ? 0. : bdf.e2 * f1);
-      }
-    }
+    predicted = predict_concentration(transported, steps);
 
     SurfaceStep<dim> step;
     step.time_step = dt;
@@ -479,55 +333,7 @@ typename CoupledSystem<dim>::StepErrors CoupledSystem<dim>::try_step(const doubl
   last_computed_time = time;
   trial_capillary_step = compute_capillary_time_step();
   trial = take_snapshot(time, transported);
-  return estimate_errors(dt, transported, predicted);
-}
-
-template <int dim>
-typename CoupledSystem<dim>::StepErrors
-CoupledSystem<dim>::estimate_errors(const double dt, const std::vector<TransportedFields<dim>> &transported,
-                                    const CutCellScalar<dim> &predicted_concentration) const
-{
-  // Position: BDF2 with the velocity that came out instead of the extrapolated one differs by dt/a0 (u - u*),
-  // which is the leading part of the local error. Concentration: Milne's device on the quadratic predictor
-  // and BDF2, whose local errors are dt (dt + dt1)(dt + dt1 + dt2)/6 and dt^2 (dt + dt1)^2 / (6 (2 dt + dt1))
-  // times f'''.
-  const double dt1 = dt_previous, dt2 = dt_preceding;
-  const double a0 = dt1 > 0. ? (dt1 + 2. * dt) / (dt1 + dt) : 1.;
-  double milne = 0.;
-  if (dt2 > 0.)
-  {
-    const double predictor = (dt + dt1) * (dt + dt1 + dt2),
-                 corrector = dt * (dt + dt1) * (dt + dt1) / (2. * dt + dt1);
-    milne = corrector / (predictor + corrector);
-  }
-  StepErrors errors;
-  bool finite = true;
-  for (unsigned int c = 0; c < geometry.cut_cells().size(); ++c)
-  {
-    const auto &cell = geometry.cut_cells()[c];
-    for (const auto &q : cell.surface_points)
-    {
-      const Tensor<1, dim> u = flow.membrane_velocity()[c].value(q);
-      const Tensor<1, dim> extrapolated = TensorLagrange<dim, 3>::value(transported[c].advecting_velocity, q);
-      const double shape_error = dt / a0 * (u - extrapolated).norm();
-      finite = finite && std::isfinite(shape_error);
-      errors.shape = std::max(errors.shape, shape_error);
-      if (surface)
-      {
-        const double f = TensorLagrange<dim, 2>::value(surface->concentration()[c], q);
-        finite = finite && std::isfinite(f);
-        if (milne > 0.)
-          errors.composition =
-              std::max(errors.composition,
-                       milne * std::abs(f - TensorLagrange<dim, 3>::value(predicted_concentration[c], q)));
-      }
-    }
-  }
-  if (Utilities::MPI::min(static_cast<unsigned int>(finite), communicator) == 0)
-    throw SimulationError("the solution is not a finite number.");
-  errors.shape = Utilities::MPI::max(errors.shape, communicator);
-  errors.composition = Utilities::MPI::max(errors.composition, communicator);
-  return errors;
+  return estimate_step_errors(geometry, flow, surface.get(), transported, predicted, steps, communicator);
 }
 
 template <int dim>

@@ -154,12 +154,10 @@ bool MeshAdaptation<dim>::adapt(const Samples &samples)
   for (unsigned int i = 0; i < most_sweeps && sweep(samples); ++i)
   {
     changed = true;
-    // Below the level that is there, not only below the one that is wanted: the cells double with each level.
-    const unsigned int wanted = std::max(parameters.membrane_level, parameters.phase_boundary_level);
-    const unsigned int finest = std::min(wanted - n_lowered_levels, triangulation.n_global_levels() - 1);
     if (triangulation.n_global_active_cells() > parameters.largest_number_of_cells &&
-        finest > parameters.bulk_level + 1)
-      n_lowered_levels = wanted - (finest - 1);
+        std::max(parameters.membrane_level, parameters.phase_boundary_level) - n_lowered_levels >
+            parameters.bulk_level + 1)
+      ++n_lowered_levels;
   }
   return changed;
 }

@@ -11,8 +11,11 @@ void TimeStepping::add_parameters(dealii::ParameterHandler &prm)
   Section section(prm, {"Time stepping"});
   section.add("Adaptive", adaptive,
               "Whether the step size follows the tolerance; if not, all steps have the initial size.");
-  section.add("Initial time step", initial_step, "Size of the first step (dimensionless time).",
-              Range::positive());
+  section.add(
+      "Initial time step", initial_step,
+      "Size of the first step (dimensionless time). It is made in five parts of 1/16, 1/16, 1/8, 1/4 and "
+      "1/2 of it, since the first of them is of first order only.",
+      Range::positive());
   section.add(
       "Smallest time step", smallest_step,
       "The simulation stops with a message if the tolerance asks for smaller steps (dimensionless time).",

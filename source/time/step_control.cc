@@ -17,14 +17,28 @@ namespace
   constexpr double order_of_local_error = 3.;
   // How fast an estimate that could not be reduced is forgotten, per step.
   constexpr double fading = 0.99;
+  // Halvings of the initial step for the first one, of first order.
+  constexpr unsigned int largest_number_of_halvings = 4;
 } // namespace
 
 StepControl::StepControl(const Parameters::TimeStepping &parameters, const double start_time,
                          std::vector<double> stops_)
-    : parameters(parameters), now(start_time), stops(std::move(stops_)), wanted(parameters.initial_step)
+    : parameters(parameters), now(start_time), stops(std::move(stops_)),
+      n_halvings(largest_number_of_halvings)
 {
   Assert(!stops.empty(), dealii::ExcMessage("There must be an end."));
   std::sort(stops.begin(), stops.end());
+  while (parameters.adaptive && n_halvings > 0 &&
+         std::ldexp(parameters.initial_step, -static_cast<int>(n_halvings)) < parameters.smallest_step)
+    --n_halvings;
+  wanted = start_step();
+}
+
+double StepControl::start_step() const
+{
+  // the first size twice, then each the double of the one before: together one initial step
+  const unsigned int n_doublings = n_started == 0 ? 0 : n_started - 1;
+  return std::ldexp(parameters.initial_step, static_cast<int>(n_doublings) - static_cast<int>(n_halvings));
 }
 
 double StepControl::propose(const double stability_limit)
@@ -53,6 +67,7 @@ void StepControl::shrink(const double factor, const std::string &reason)
     throw SimulationError(message.str());
   }
   wanted = std::max(factor * proposed, parameters.smallest_step);
+  n_started = n_halvings + 1;
 }
 
 bool StepControl::judge(const double estimate)
@@ -60,7 +75,10 @@ bool StepControl::judge(const double estimate)
   // Whether it is good enough is measured by what can be reached, the step by the part that depends on it.
   const double error = estimate / std::max(1., 1.5 * floor);
   const double ideal = safety * std::pow(std::max(estimate - floor, 1e-10), -1. / order_of_local_error);
-  if (parameters.adaptive && error > 1.)
+  // A stop can cut a step below the smallest size; repeating it smaller is not possible, and it says nothing
+  // about the size to go on with.
+  const bool is_remainder = proposed < parameters.smallest_step * (1. - same);
+  if (parameters.adaptive && error > 1. && !is_remainder)
   {
     const bool falls = rejected_step == 0. || estimate < rejected_error * proposed / rejected_step;
     if (falls)
@@ -75,13 +93,18 @@ bool StepControl::judge(const double estimate)
     floor = std::max(floor, estimate);
     wanted = rejected_step;
   }
-  else if (parameters.adaptive)
+  else if (parameters.adaptive && !is_remainder)
   {
     floor = floor < 0.1 ? 0. : fading * floor;
     wanted = std::min(std::max(proposed * std::min(ideal, parameters.largest_growth),
                                // a step cut short by a stop says little about what is possible
                                ideal >= 1. ? std::min(wanted, proposed * ideal) : 0.),
                       parameters.largest_step);
+  }
+  if (n_started <= n_halvings)
+  {
+    ++n_started;
+    wanted = start_step();
   }
   rejected_step = 0.;
 

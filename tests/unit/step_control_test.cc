@@ -40,16 +40,44 @@ TEST(StepControl, HitsAllStopsExactlyAndEnds)
 TEST(StepControl, GrowsToTheLargestStepAndRespectsTheStabilityLimit)
 {
   StepControl control(parameters(), 0., {100.});
-  double previous = 0.01;
-  for (unsigned int i = 0; i < 20; ++i)
+  double previous = control.propose(unlimited);
+  for (unsigned int i = 0; i < 25; ++i)
   {
     const double step = control.propose(unlimited);
-    EXPECT_LE(step, 1.5 * previous * (1. + 1e-12));
+    EXPECT_LE(step, (step <= 0.01 ? 2. : 1.5) * previous * (1. + 1e-12));
     previous = step;
     control.judge(1e-6);
   }
   EXPECT_DOUBLE_EQ(previous, 0.08);
   EXPECT_DOUBLE_EQ(control.propose(0.02), 0.02);
+}
+
+TEST(StepControl, StartsWithSmallStepsThatDoubleUpToTheInitialOne)
+{
+  for (const bool adaptive : {false, true})
+  {
+    auto p = parameters();
+    p.adaptive = adaptive;
+    StepControl control(p, 0., {1.});
+    for (const double part : {1. / 16., 1. / 16., 1. / 8., 1. / 4., 1. / 2., 1.})
+    {
+      EXPECT_DOUBLE_EQ(control.propose(unlimited), part * p.initial_step);
+      ASSERT_TRUE(control.judge(0.5));
+    }
+    EXPECT_DOUBLE_EQ(control.time(), 2. * p.initial_step);
+  }
+}
+
+TEST(StepControl, NeverStartsBelowTheSmallestStep)
+{
+  auto p = parameters();
+  p.smallest_step = 0.4 * p.initial_step;
+  StepControl control(p, 0., {1.});
+  for (const double part : {0.5, 0.5, 1.})
+  {
+    EXPECT_DOUBLE_EQ(control.propose(unlimited), part * p.initial_step);
+    ASSERT_TRUE(control.judge(0.5));
+  }
 }
 
 TEST(StepControl, RepeatsABadStepSmallerAndStaysWhereItIs)
@@ -77,6 +105,17 @@ TEST(StepControl, DoesNotChaseAnErrorThatIsNotOneOfTime)
   EXPECT_GT(control.noise_floor(), 1.);
 }
 
+TEST(StepControl, TakesTheRemainderBeforeAStopAsItIs)
+{
+  // Shorter than the smallest step, and with an error that it cannot help.
+  auto p = parameters();
+  p.smallest_step = 0.005;
+  StepControl control(p, 0., {0.001, 1.});
+  EXPECT_DOUBLE_EQ(control.propose(unlimited), 0.001);
+  EXPECT_TRUE(control.judge(3.));
+  EXPECT_GE(control.propose(unlimited), 0.005);
+}
+
 TEST(StepControl, HalvesAfterAFailureAndGivesUpAtTheSmallestStep)
 {
   StepControl control(parameters(), 0., {2.});
@@ -102,10 +141,14 @@ TEST(StepControl, KeepsTheStepWhenNotAdaptive)
   unsigned int n = 0;
   while (!control.finished())
   {
-    EXPECT_NEAR(control.propose(1e-9), 0.01, 1e-12);
+    const double step = control.propose(1e-9);
+    if (n > 4) // after the start
+    {
+      EXPECT_NEAR(step, 0.01, 1e-12);
+    }
     EXPECT_TRUE(control.judge(1e9));
     ++n;
   }
-  EXPECT_EQ(n, 10u);
+  EXPECT_EQ(n, 14u);
 }
 } // namespace Gemmule

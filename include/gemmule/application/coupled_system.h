@@ -1,5 +1,6 @@
 #pragma once
 
+#include <gemmule/application/step_errors.h>
 #include <gemmule/flow/stokes_solver.h>
 #include <gemmule/geometry/cut_geometry.h>
 #include <gemmule/geometry/level_set.h>
@@ -36,13 +37,6 @@ public:
    * Throws UserError when there is no membrane in the box, or it touches the wall.
    */
   void initialise();
-
-  /** Estimated local errors of a step. */
-  struct StepErrors
-  {
-    double shape = 0.;       ///< of the membrane's position (length)
-    double composition = 0.; ///< of f (dimensionless)
-  };
 
   /**
    * Computes the state at time() + dt. Throws SimulationError when that is impossible; accept() or another
@@ -83,7 +77,6 @@ public:
   dealii::TimerOutput &timer() { return timer_output; }
 
 private:
-  void make_initial_mesh();
   void reinit_mesh();
   /** Samples of the current membrane, at its predicted position if there is a motion. */
   std::vector<MembraneSample<dim>> samples(const MembraneProjection<dim> &membrane,
@@ -91,22 +84,12 @@ private:
   void adapt_mesh(const MembraneProjection<dim> &membrane, const MembraneMotion<dim> *motion);
   void cut_mesh(bool keep_area);
 
-  /** How many cells at the walls there are, how many are inside, and how many inside or cut. */
-  struct WallCells
-  {
-    unsigned int all = 0, inside = 0, not_outside = 0;
-  };
-  WallCells count_wall_cells() const;
-  void check_initial_wall() const;
   void check_wall() const;
-  bool membrane_touches_wall() const;
   /** @param old_velocity of the same material points one step ago; nullptr at the start */
   void solve_flow(double time, double dt, const CutCellVector<dim> *old_velocity);
   double compute_capillary_time_step() const;
   MembraneSnapshot<dim> take_snapshot(double time,
                                       const std::vector<TransportedFields<dim>> &transported) const;
-  StepErrors estimate_errors(double dt, const std::vector<TransportedFields<dim>> &transported,
-                             const CutCellScalar<dim> &predicted_concentration) const;
 
   const AllParameters parameters;
   const MPI_Comm communicator;

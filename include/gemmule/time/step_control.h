@@ -11,6 +11,10 @@ namespace Gemmule
  * Chooses the time steps: an elementary controller on the local error of a second-order scheme, limits, and
  * the times that have to be hit exactly. Does no computation of its own, so that it can be tested without a
  * simulation.
+ *
+ * Start: BDF2 has no past, so that its first step is backward Euler, of local error O(dt^2). The first
+ * initial step d is therefore split into d/16, d/16, d/8, d/4, d/2, which makes that error 256 times smaller,
+ * at the ratio 2 of successive steps that BDF2 is stable for (1 + sqrt(2)).
  */
 class StepControl
 {
@@ -52,6 +56,8 @@ public:
 
 private:
   void shrink(double factor, const std::string &reason);
+  /** Size of the next step of the start. */
+  double start_step() const;
 
   Parameters::TimeStepping parameters;
   double now;
@@ -60,5 +66,7 @@ private:
   double proposed = 0.;                           ///< step in work
   double rejected_step = 0., rejected_error = 0.; ///< last rejection at this time, if any
   double floor = 0.;
+  unsigned int n_halvings;    ///< of the initial step, at the start
+  unsigned int n_started = 0; ///< steps of the start that are done; n_halvings + 1: the start is over
 };
 } // namespace Gemmule
