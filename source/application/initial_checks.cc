@@ -173,11 +173,10 @@ void InitialChecks<dim>::distance(const double area, const double new_area, cons
 {
   const double loss = std::max(std::abs(new_area / area - 1.), std::abs(new_arclength / arclength - 1.));
   if (!(loss <= largest_loss))
-    fail_level_set("describes a shape that the mesh does not resolve: its area is " + short_number(area) +
-                   " and its arclength " + short_number(arclength) + ", but " + short_number(new_area) +
-                   " and " + short_number(new_arclength) +
-                   " once the level set is made a distance. Choose a finer 'Mesh/Membrane level', or a "
-                   "shape without corners and fine details.");
+    fail_level_set(
+        "describes a shape that the mesh does not resolve: making the level set a distance changes its "
+        "area or its arclength by more than 5 %. Choose a finer 'Mesh/Membrane level', a shape without "
+        "corners and fine details, and a function that passes through zero with a slope.");
 }
 
 template <int dim>

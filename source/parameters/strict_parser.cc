@@ -308,7 +308,7 @@ void StrictParser::unknown_section(const std::string &section, const std::string
     remedy = "There is one " + in_section(holders.front()) +
              "; is an 'end' missing for the section that starts at " + open_sections.back().place + "?";
   else if (!holders.empty())
-    remedy = "There is one " + in_section(holders.front()) + ".";
+    remedy = "There is one " + in_section(holders.front()) + ": open that section first.";
   else
     remedy =
         sections.empty() ? "There are no sections here." : "The sections here are " + list(sections) + ".";

@@ -98,7 +98,8 @@ namespace
       dealii::ParameterHandler prm;
       parameters.add_parameters(prm);
       std::vector<std::string> names;
-      for (const auto &entry : Parameters::Schema(prm).entries())
+      const Parameters::Schema schema(prm);
+      for (const auto &entry : schema.entries())
         names.push_back(entry.first);
       return names;
     }
