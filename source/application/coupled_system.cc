@@ -7,8 +7,10 @@
 #include <gemmule/parameters/errors.h>
 #include <gemmule/parameters/expression.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace Gemmule
 {
@@ -23,6 +25,11 @@ namespace
   // A step that is wrong by more than this part of the area has lost the membrane, and is no case for a
   // correction.
   constexpr double largest_area_error = 0.05;
+  // The level set feels the shortest waves of the velocity more than their trace on the membrane tells; with
+  // the bare stiffness and S = 0.4 they grow once dt is a hundred times the limit of the explicit coupling.
+  constexpr double bending_stiffness_margin = 2.5;
+  // A given reference arclength is approached by at most this part of it per step.
+  constexpr double largest_arclength_change = 1e-3;
 
   /** Q2 nodal values as Q3 nodal values of the same polynomial. */
   template <int dim, typename T>
@@ -43,6 +50,22 @@ namespace
     return raised;
   }
 
+  /** The owned quadrature points of a membrane without concentrations. */
+  template <int dim>
+  MembraneCloud<dim> bare_cloud(const CutGeometry<dim> &geometry)
+  {
+    MembraneCloud<dim> cloud;
+    for (const auto &cell : geometry.cut_cells())
+      for (unsigned int q = 0; q < cell.surface_points.size(); ++q)
+      {
+        cloud.points.push_back(cell.physical(cell.surface_points[q]));
+        cloud.normals.push_back(cell.normals[q]);
+        cloud.weights.push_back(cell.surface_weights[q]);
+      }
+    cloud.concentration.assign(cloud.points.size(), 0.);
+    cloud.total_concentration.assign(cloud.points.size(), 0.);
+    return cloud;
+  }
 } // namespace
 
 template <int dim>
@@ -61,11 +84,13 @@ CoupledSystem<dim>::CoupledSystem(const AllParameters &parameters_, const MPI_Co
           make_function<dim>(parameters.domain.boundary_velocity, dim, "Domain/Boundary velocity")),
       prescribed_tension(
           make_function<dim>(parameters.membrane.prescribed_tension, 1, "Membrane/Prescribed tension")),
-      model(parameters.membrane, parameters.regularisation), level_set(triangulation),
+      model(parameters.membrane, parameters.regularisation, parameters.bending), level_set(triangulation),
       flow(triangulation, parameters.fluid, parameters.flow), adaptation(triangulation, parameters.mesh)
 {
   if (parameters.membrane.tension_model == Parameters::TensionModel::phase_field)
     surface = std::make_unique<SurfaceSolver<dim>>(triangulation, model, parameters.surface);
+  if (model.bending().is_active())
+    bending = std::make_unique<MembraneBending<dim>>(triangulation, model.bending());
 }
 
 template <int dim>
@@ -75,6 +100,8 @@ void CoupledSystem<dim>::reinit_mesh()
   level_set.reinit_mesh();
   if (surface)
     surface->reinit_mesh();
+  if (bending)
+    bending->reinit_mesh();
   flow.reinit_mesh();
   steps_since_remeshing = 0;
 }
@@ -87,8 +114,9 @@ void CoupledSystem<dim>::initialise()
     initial.make_mesh(triangulation, level_set, geometry, adaptation);
     reinit_mesh();
     initial.make_level_set(origin, level_set, geometry);
+    const MembranePointValues *const curvature = compute_curvature();
     if (surface)
-      initial.make_phases(level_set, geometry, *surface);
+      initial.make_phases(level_set, geometry, *surface, curvature);
   }
   area_0 = geometry.enclosed_volume();
   arclength_0 = parameters.arclength.reference_arclength > 0. ? parameters.arclength.reference_arclength
@@ -186,11 +214,21 @@ void CoupledSystem<dim>::cut_mesh(const bool keep_area)
 }
 
 template <int dim>
+const MembranePointValues *CoupledSystem<dim>::compute_curvature()
+{
+  if (!bending)
+    return nullptr;
+  TimerOutput::Scope scope(timer_output, "surface: curvature");
+  bending->compute_curvature(geometry, level_set.get_dof_handler(), level_set.values());
+  return &bending->curvature();
+}
+
+template <int dim>
 void CoupledSystem<dim>::solve_flow(const double time, const double dt,
                                     const CutCellVector<dim> *old_velocity)
 {
   if (surface)
-    total_tension = surface->tension();
+    total_tension = surface->tension(bending ? &bending->curvature() : nullptr);
   else
   {
     prescribed_tension->set_time(time);
@@ -204,31 +242,69 @@ void CoupledSystem<dim>::solve_flow(const double time, const double dt,
     }
   }
   boundary_velocity->set_time(time);
-  const MembraneScalar tension_of_membrane = total_tension;
+  MembraneScalar stiff_tension = total_tension;
+  std::unique_ptr<BendingForce<dim>> bending_force;
+  if (bending)
+  {
+    bending->compute_moment(surface ? &surface->concentration() : nullptr,
+                            surface ? &surface->total_concentration() : nullptr);
+    bending_force = std::make_unique<BendingForce<dim>>(*bending, geometry);
+    const MembraneScalar tension_of_bending = bending->tension();
+    for (unsigned int c = 0; c < stiff_tension.size(); ++c)
+      for (unsigned int q = 0; q < stiff_tension[c].size(); ++q)
+        stiff_tension[c][q] += std::max(tension_of_bending[c][q], 0.);
+  }
   MembraneScalar dilatational_modulus(surface ? total_tension.size() : 0);
   for (unsigned int c = 0; c < dilatational_modulus.size(); ++c)
     for (const auto &q : geometry.cut_cells()[c].surface_points)
       dilatational_modulus[c].push_back(
           model.dilatational_modulus(TensorLagrange<dim, 2>::value(surface->total_concentration()[c], q)));
   const SemiImplicitTension<dim> semi_implicit{parameters.time_stepping.tension_implicitness * dt,
-                                               &tension_of_membrane,
+                                               &stiff_tension,
                                                surface ? &dilatational_modulus : nullptr, old_velocity};
+  SemiImplicitBending<dim> semi_implicit_bending;
+  if (bending)
+  {
+    semi_implicit_bending.coefficient =
+        bending_stiffness_margin * semi_implicit.coefficient * model.bending().largest_rigidity();
+    semi_implicit_bending.space = &bending->trace_space();
+    semi_implicit_bending.old_velocity = old_velocity;
+  }
+  const bool is_semi_implicit = old_velocity != nullptr && semi_implicit.coefficient > 0.;
   {
     TimerOutput::Scope scope(timer_output, "flow: assembly and factorisation");
-    flow.prepare(geometry, *boundary_velocity,
-                 old_velocity != nullptr && semi_implicit.coefficient > 0. ? &semi_implicit : nullptr);
+    flow.prepare(geometry, *boundary_velocity, is_semi_implicit ? &semi_implicit : nullptr,
+                 is_semi_implicit && bending ? &semi_implicit_bending : nullptr);
   }
   TimerOutput::Scope scope(timer_output, "flow: solution");
-  if (parameters.arclength.model == Parameters::ArclengthModel::penalty)
+  if (parameters.arclength.model != Parameters::ArclengthModel::none)
   {
-    const ArclengthPenalty penalty{parameters.arclength.penalty, geometry.measure() - arclength_0, dt};
-    flow.solve(total_tension, &penalty);
+    // The multiplier holds dL/dt = 0; what a step changes nevertheless, the motion of the next one corrects.
+    const ArclengthPenalty penalty =
+        has_arclength_multiplier()
+            ? ArclengthPenalty{std::numeric_limits<double>::infinity(), 0., 1.}
+            : ArclengthPenalty{parameters.arclength.penalty, geometry.measure() - arclength_0, dt};
+    flow.solve(total_tension, &penalty, bending_force.get());
     for (auto &cell : total_tension)
       for (double &sigma : cell)
         sigma += flow.constraint_tension();
   }
   else
-    flow.solve(total_tension);
+    flow.solve(total_tension, nullptr, bending_force.get());
+}
+
+template <int dim>
+bool CoupledSystem<dim>::has_arclength_multiplier() const
+{
+  return parameters.arclength.model == Parameters::ArclengthModel::multiplier;
+}
+
+template <int dim>
+double CoupledSystem<dim>::next_arclength() const
+{
+  const double arclength = std::accumulate(current.cloud.weights.begin(), current.cloud.weights.end(), 0.);
+  const double largest_change = largest_arclength_change * arclength_0;
+  return std::clamp(arclength_0, arclength - largest_change, arclength + largest_change);
 }
 
 template <int dim>
@@ -243,6 +319,8 @@ CoupledSystem<dim>::take_snapshot(const double time,
     fields[c].velocity = raise_degree<dim>(flow.membrane_velocity()[c].nodal);
     fields[c].displacement = transported[c].displacement;
     fields[c].previous_velocity = transported[c].previous_velocity;
+    if (has_arclength_multiplier())
+      fields[c].tension_velocity = raise_degree<dim>(flow.tension_velocity()[c].nodal);
     if (surface)
     {
       fields[c].concentration = raise_degree<dim>(surface->concentration()[c]);
@@ -259,6 +337,8 @@ CoupledSystem<dim>::take_snapshot(const double time,
   snapshot.band = level_set.gather_band();
   if (surface)
     snapshot.cloud = gather_cloud(surface->cloud(), communicator);
+  else if (has_arclength_multiplier())
+    snapshot.cloud = gather_cloud(bare_cloud(geometry), communicator);
   return snapshot;
 }
 
@@ -271,7 +351,9 @@ StepErrors CoupledSystem<dim>::try_step(const double dt)
   const BdfCoefficients bdf =
       first ? BdfCoefficients::first_order() : BdfCoefficients::second_order(dt / dt_previous);
   const MembraneProjection<dim> membrane(current.patches, origin);
-  const MembraneMotion<dim> motion(membrane, dt, dt_previous);
+  MembraneMotion<dim> motion(membrane, dt, dt_previous);
+  if (has_arclength_multiplier())
+    motion.fit_measure(current.cloud, next_arclength(), area_0);
   dt_trial = dt;
 
   adapt_mesh(membrane, &motion);
@@ -281,6 +363,7 @@ StepErrors CoupledSystem<dim>::try_step(const double dt)
                       membrane.distance_drift() > largest_distance_drift);
   }
   cut_mesh(true);
+  const MembranePointValues *const curvature = compute_curvature();
 
   std::vector<TransportedFields<dim>> transported;
   CutCellScalar<dim> predicted;
@@ -303,6 +386,7 @@ StepErrors CoupledSystem<dim>::try_step(const double dt)
     step.clouds = {{&current.cloud, first ? nullptr : &previous.cloud}};
     step.velocity = &velocity;
     step.predicted_concentration = &predicted;
+    step.curvature = curvature;
     std::array<CutCellScalar<dim>, 2> extended;
     CutCellScalar<dim> predicted_total;
     if (surface->needs_extended_fields())

@@ -183,10 +183,11 @@ void InitialMembrane<dim>::make_level_set(const Point<dim> &origin, LevelSet<dim
 
 template <int dim>
 void InitialMembrane<dim>::make_phases(const LevelSet<dim> &level_set, const CutGeometry<dim> &geometry,
-                                       SurfaceSolver<dim> &surface) const
+                                       SurfaceSolver<dim> &surface,
+                                       const MembranePointValues *const curvature) const
 {
   surface.initialise(geometry, level_set.get_dof_handler(), level_set.values(), *concentration,
-                     *total_concentration);
+                     *total_concentration, curvature);
 }
 
 template class InitialMembrane<2>;

@@ -59,11 +59,16 @@ namespace
         }
         s.tension = system.tension()[c][q];
         s.weight = cell.surface_weights[q];
-        // div n of the level set, with respect to unit coordinates
-        const auto phi = evaluate_polynomial<dim, 3, 2>(cell.level_set, unit);
-        const double norm = phi.gradient.norm();
-        const Tensor<1, dim> n = phi.gradient / norm;
-        s.curvature = (trace(phi.hessian) - n * (phi.hessian * n)) / (norm * cell.size);
+        if (const auto *const bending = system.get_bending())
+          s.curvature = bending->curvature()[c][q];
+        else
+        {
+          // div n of the level set, with respect to unit coordinates
+          const auto phi = evaluate_polynomial<dim, 3, 2>(cell.level_set, unit);
+          const double norm = phi.gradient.norm();
+          const Tensor<1, dim> n = phi.gradient / norm;
+          s.curvature = (trace(phi.hessian) - n * (phi.hessian * n)) / (norm * cell.size);
+        }
         samples.push_back(s);
       }
     }
@@ -201,6 +206,8 @@ StatisticsRow make_statistics(const CoupledSystem<dim> &system, const InterfaceS
   if (arclength.model == Parameters::ArclengthModel::penalty)
     row.energy_constraint =
         0.5 * arclength.penalty * std::pow(row.arclength - system.reference_arclength(), 2);
+  if (const auto *const bending = system.get_bending())
+    row.energy_bending = bending->energy();
   row.energy_total = row.energy_surface + row.energy_phase + row.energy_constraint + row.energy_bending;
   row.dissipation_viscous = flow.viscous_dissipation();
   row.max_velocity = flow.max_velocity();

@@ -17,14 +17,18 @@ StokesAssembler<dim>::StokesAssembler(const UnfittedStokesSpace<dim> &space, con
 }
 
 template <int dim>
-void StokesAssembler<dim>::assemble(const CutGeometry<dim> &geometry, ElementSystem &system)
+void StokesAssembler<dim>::add_elements(const CutGeometry<dim> &geometry, ElementSystem &system,
+                                        const unsigned int n_additional_unknowns)
 {
-  system.begin(space.n_unknowns());
+  system.begin(space.n_unknowns() + n_additional_unknowns);
   add_cell_elements(geometry, system);
   add_face_elements(geometry, system);
-  system.finish_elements();
+}
 
-  rhs.assign(space.n_unknowns(), 0.);
+template <int dim>
+void StokesAssembler<dim>::assemble(const CutGeometry<dim> &geometry, ElementSystem &system)
+{
+  rhs.assign(system.n_unknowns(), 0.);
   system.zero_matrix();
   add_cell_matrices(geometry, system);
   add_face_matrices(system);

@@ -3,6 +3,8 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
+#include <cmath>
 #include <numeric>
 
 namespace Gemmule
@@ -25,22 +27,32 @@ void StokesSolver<dim>::reinit_mesh()
 
 template <int dim>
 void StokesSolver<dim>::prepare(const CutGeometry<dim> &new_geometry, const Function<dim> &boundary_velocity,
-                                const SemiImplicitTension<dim> *new_semi_implicit)
+                                const SemiImplicitTension<dim> *new_semi_implicit,
+                                SemiImplicitBending<dim> *new_semi_implicit_bending)
 {
   geometry = &new_geometry;
   semi_implicit = new_semi_implicit;
+  semi_implicit_bending = new_semi_implicit_bending;
   space.reinit(*geometry, boundary_velocity);
+  assembler.add_elements(*geometry, system,
+                         semi_implicit_bending != nullptr ? semi_implicit_bending->n_unknowns() : 0);
+  if (semi_implicit_bending != nullptr)
+    new_semi_implicit_bending->add_elements(space.n_unknowns(), assembler.cut_cell_elements(), system);
+  system.finish_elements();
   assembler.assemble(*geometry, system);
   force.reinit(*geometry);
   rhs = assembler.boundary_rhs();
   if (semi_implicit != nullptr)
     semi_implicit->add_matrix(*geometry, force, capillary_number, assembler.fluids(),
                               assembler.cut_cell_elements(), system, rhs);
+  if (semi_implicit_bending != nullptr)
+    semi_implicit_bending->add_matrix(*geometry, force, capillary_number, assembler.fluids(), system, rhs);
   system.factorise();
 }
 
 template <int dim>
-void StokesSolver<dim>::solve(const MembraneScalar &tension, const ArclengthPenalty *penalty)
+void StokesSolver<dim>::solve(const MembraneScalar &tension, const ArclengthPenalty *penalty,
+                              const BendingForce<dim> *bending)
 {
   Assert(geometry != nullptr, ExcMessage("prepare() must be called before solve()."));
   AssertDimension(tension.size(), geometry->cut_cells().size());
@@ -53,10 +65,14 @@ void StokesSolver<dim>::solve(const MembraneScalar &tension, const ArclengthPena
   force.add_rhs(&tension, 0., capillary_number, fluids, elements, system, solutions[0]);
   if (semi_implicit != nullptr)
     semi_implicit->add_rhs(*geometry, force, capillary_number, fluids, elements, system, solutions[0]);
+  if (bending != nullptr)
+    bending->add_rhs(force, capillary_number, fluids, elements, system, solutions[0]);
+  if (semi_implicit_bending != nullptr)
+    semi_implicit_bending->add_rhs(*geometry, capillary_number, system, solutions[0]);
   std::vector<double> unit_force;
   if (constrained)
   {
-    unit_force.assign(space.n_unknowns(), 0.);
+    unit_force.assign(system.n_unknowns(), 0.);
     force.add_rhs(nullptr, 1., capillary_number, fluids, elements, system, unit_force);
     solutions.push_back(unit_force);
   }
@@ -78,7 +94,14 @@ void StokesSolver<dim>::solve(const MembraneScalar &tension, const ArclengthPena
         Utilities::MPI::sum(std::inner_product(unit_force.begin(), unit_force.end(), unit_flow.begin(), 0.),
                             communicator);
     const double lambda = penalty->stiffness, dt = penalty->time_step;
-    penalty_tension = lambda * (penalty->excess + dt * rate_without) / (1. - lambda * dt * rate_of_unit);
+    if (std::isinf(lambda))
+      // On a circle no tension changes the length: the flow of a unit tension is round-off there, as is what it
+      // would have to balance.
+      penalty_tension = (penalty->excess / dt + rate_without) /
+                        std::max(-rate_of_unit, 1e-9 * geometry->measure() / capillary_number);
+    else
+      penalty_tension = lambda * (penalty->excess + dt * rate_without) / (1. - lambda * dt * rate_of_unit);
+    unit_tension_velocity = force.average(fluids, elements, system, unit_flow);
     for (std::size_t i = 0; i < unknowns.size(); ++i)
       unknowns[i] += penalty_tension * unit_flow[i];
   }
@@ -86,6 +109,8 @@ void StokesSolver<dim>::solve(const MembraneScalar &tension, const ArclengthPena
   velocity = force.average(fluids, elements, system, unknowns);
   rate = Utilities::MPI::sum(force.integrate_divergence(nullptr, 1., velocity), communicator);
   work = -Utilities::MPI::sum(force.integrate_divergence(&tension, penalty_tension, velocity), communicator);
+  if (bending != nullptr)
+    work -= Utilities::MPI::sum(bending->power(force, velocity), communicator);
   flux = Utilities::MPI::sum(force.integrate_flux(velocity), communicator);
   bulk.reinit(space, *geometry, assembler, system, unknowns);
 }

@@ -1,5 +1,7 @@
 #include <gemmule/geometry/membrane_motion.h>
 
+#include <cmath>
+
 namespace Gemmule
 {
 using namespace dealii;
@@ -20,8 +22,10 @@ template <int dim>
 Tensor<1, dim> MembraneMotion<dim>::displacement(const ClosestPoint<dim> &p) const
 {
   using Fields = MembraneFields<dim>;
-  const Tensor<1, dim> velocity = velocity_weight * projection.value(p, &Fields::velocity) +
-                                  previous_velocity_weight * projection.value(p, &Fields::previous_velocity);
+  Tensor<1, dim> velocity = velocity_weight * projection.value(p, &Fields::velocity) +
+                            previous_velocity_weight * projection.value(p, &Fields::previous_velocity);
+  if (added_tension != 0.)
+    velocity += added_tension * projection.value(p, &Fields::tension_velocity);
   return inverse_a0 * (dt * velocity + displacement_weight * projection.value(p, &Fields::displacement));
 }
 
@@ -43,7 +47,83 @@ typename MembraneMotion<dim>::Trajectory MembraneMotion<dim>::trace_back(const P
   }
   result.velocity = velocity_weight * projection.value(result.foot, &Fields::velocity) +
                     previous_velocity_weight * projection.value(result.foot, &Fields::previous_velocity);
+  if (added_tension != 0.)
+    result.velocity += added_tension * projection.value(result.foot, &Fields::tension_velocity);
   return result;
+}
+
+template <int dim>
+double MembraneMotion<dim>::fit_measure(const MembraneCloud<dim> &cloud, const double measure,
+                                        const double volume)
+{
+  using Basis = TensorLagrange<dim, 3>;
+  // Displacement and its gradient at the points: given part and part per unit of tension.
+  struct PointMotion
+  {
+    Tensor<1, dim> displacement, displacement_by_tension;
+    Tensor<2, dim> deformation, deformation_by_tension;
+  };
+  std::vector<PointMotion> motion(cloud.points.size());
+  double total_curvature = 0.;
+  typename Basis::Values values;
+  typename Basis::Gradients gradients;
+  for (unsigned int i = 0; i < motion.size(); ++i)
+  {
+    const ClosestPoint<dim> p = projection.project(cloud.points[i]);
+    const MembranePatch<dim> &patch = projection.get_patches()[p.patch];
+    Basis::evaluate(p.unit_point, values, gradients);
+    for (unsigned int d = 0; d < dim; ++d)
+      motion[i].deformation[d][d] = 1.;
+    for (unsigned int k = 0; k < Basis::n; ++k)
+    {
+      const Tensor<1, dim> d =
+          inverse_a0 * (dt * (velocity_weight * patch.fields.velocity[k] +
+                              previous_velocity_weight * patch.fields.previous_velocity[k]) +
+                        displacement_weight * patch.fields.displacement[k]);
+      const Tensor<1, dim> e = (inverse_a0 * dt) * patch.fields.tension_velocity[k];
+      motion[i].displacement += values[k] * d;
+      motion[i].displacement_by_tension += values[k] * e;
+      motion[i].deformation += outer_product(d, gradients[k]) / patch.size;
+      motion[i].deformation_by_tension += outer_product(e, gradients[k]) / patch.size;
+    }
+    const auto phi = evaluate_polynomial<dim, 3, 2>(patch.level_set, p.unit_point);
+    const double norm = phi.gradient.norm();
+    const Tensor<1, dim> n = phi.gradient / norm;
+    total_curvature +=
+        cloud.weights[i] * (trace(phi.hessian) - n * (phi.hessian * n)) / (norm * patch.size);
+  }
+
+  // The oriented element of the moved membrane is the cofactor of F = grad(x + d) times that of the old one.
+  const auto moved_measure = [&](const double tension)
+  {
+    double moved = 0., moved_volume = 0.;
+    for (unsigned int i = 0; i < motion.size(); ++i)
+    {
+      const Tensor<2, dim> F = motion[i].deformation + tension * motion[i].deformation_by_tension;
+      const Tensor<1, dim> element =
+          cloud.weights[i] * determinant(F) * (transpose(invert(F)) * cloud.normals[i]);
+      const Tensor<1, dim> x = Tensor<1, dim>(cloud.points[i]) + motion[i].displacement +
+                               tension * motion[i].displacement_by_tension;
+      moved += element.norm();
+      moved_volume += x * element / dim;
+    }
+    return moved - (moved_volume - volume) / moved * total_curvature;
+  };
+
+  added_tension = 0.;
+  const double step = 1e-3;
+  const double slope = (moved_measure(step) - moved_measure(-step)) / (2. * step);
+  if (!(std::abs(slope) > 1e-9 * inverse_a0 * dt * measure))
+    return 0.;
+  double tension = 0.;
+  for (unsigned int iteration = 0; iteration < 6; ++iteration)
+  {
+    const double excess = moved_measure(tension) - measure;
+    tension -= excess / slope;
+    if (std::abs(excess) < 1e-13 * measure)
+      break;
+  }
+  return added_tension = tension;
 }
 
 template class MembraneMotion<2>;

@@ -6,20 +6,22 @@
 namespace Gemmule
 {
 MembraneModel::MembraneModel(const Parameters::Membrane &membrane,
-                             const Parameters::Regularisation &regularisation)
+                             const Parameters::Regularisation &regularisation,
+                             const Parameters::Bending &bending)
     : MembraneModel(EnergyRegistry<DoubleWell>::instance().create(membrane.double_well, membrane),
                     EnergyRegistry<SurfaceEnergy>::instance().create(membrane.surface_energy, membrane),
-                    membrane, regularisation)
+                    membrane, regularisation, bending)
 {
 }
 
 MembraneModel::MembraneModel(std::unique_ptr<DoubleWell> double_well,
                              std::unique_ptr<SurfaceEnergy> surface_energy,
                              const Parameters::Membrane &membrane,
-                             const Parameters::Regularisation &regularisation)
+                             const Parameters::Regularisation &regularisation,
+                             const Parameters::Bending &bending)
     : double_well(std::move(double_well)), surface_energy(std::move(surface_energy)),
       peclet(membrane.peclet_number), cahn(membrane.cahn_number), mach(membrane.mach_number),
-      choice(regularisation)
+      choice(regularisation), bending_model(bending)
 {
 }
 
@@ -29,6 +31,16 @@ MembraneModel::ChemicalPotential MembraneModel::local_chemical_potential(const d
   const auto g = double_well->evaluate(f, fbar);
   const auto gamma = surface_energy->evaluate(f, fbar);
   return {g.f + mach * gamma.f, g.ff + mach * gamma.ff};
+}
+
+MembraneModel::ChemicalPotential
+MembraneModel::local_chemical_potential(const double f, const double fbar, const double curvature) const
+{
+  auto potential = local_chemical_potential(f, fbar);
+  const auto bending = bending_model.evaluate(curvature, f / fbar);
+  potential.value += mach * bending.by_composition / fbar;
+  potential.by_f += mach * bending.by_composition_twice / (fbar * fbar);
+  return potential;
 }
 
 double MembraneModel::tension(const double f, const double fbar, const double chemical_potential,
@@ -44,6 +56,13 @@ double MembraneModel::tension(const double f, const double fbar, const double ch
   if (is_compressible())
     sigma += 0.5 * choice.compressibility_modulus * (1. - fbar * fbar);
   return sigma;
+}
+
+double MembraneModel::tension(const double f, const double fbar, const double chemical_potential,
+                              const double squared_surface_gradient_f, const double curvature) const
+{
+  return tension(f, fbar, chemical_potential, squared_surface_gradient_f) +
+         f / fbar * bending_model.evaluate(curvature, f / fbar).by_composition;
 }
 
 double MembraneModel::dilatational_modulus(const double fbar) const

@@ -119,6 +119,7 @@ void AllParameters::add_parameters(dealii::ParameterHandler &prm)
   fluid.add_parameters(prm);
   membrane.add_parameters(prm);
   regularisation.add_parameters(prm);
+  bending.add_parameters(prm);
   arclength.add_parameters(prm);
   mesh.add_parameters(prm);
   flow.add_parameters(prm);
@@ -137,6 +138,7 @@ void AllParameters::check() const
   fluid.check();
   membrane.check();
   regularisation.check();
+  bending.check();
   arclength.check();
   mesh.check();
   flow.check();

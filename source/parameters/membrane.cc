@@ -113,20 +113,58 @@ void Regularisation::check() const
   copy.add_parameters(prm);
 }
 
+void Bending::add_parameters(dealii::ParameterHandler &prm)
+{
+  Section section(prm, {"Membrane", "Bending"});
+  const std::string unit = " (energy, relative to the reference tension times the reference length squared)";
+  section.add("Rigidity at composition 0", rigidity_0,
+              "Bending rigidity k of the phase with composition 0 in the Helfrich energy "
+              "(k/2)(curvature - spontaneous curvature)^2 per length" +
+                  unit +
+                  ". 0: no resistance to bending; negative tension then wrinkles the membrane at the length of "
+                  "the mesh. With a prescribed tension this value holds everywhere.",
+              Range::non_negative());
+  section.add("Rigidity at composition 1", rigidity_1,
+              "Bending rigidity k of the phase with composition 1" + unit + ".", Range::non_negative());
+  section.add("Spontaneous curvature at composition 0", spontaneous_curvature_0,
+              "Curvature that the phase with composition 0 prefers (inverse length, dimensionless); positive "
+              "on a circle. With a prescribed tension this value holds everywhere.",
+              Range::any());
+  section.add("Spontaneous curvature at composition 1", spontaneous_curvature_1,
+              "Curvature that the phase with composition 1 prefers (inverse length, dimensionless).",
+              Range::any());
+  section.add("Interpolation", interpolation,
+              "How rigidity and spontaneous curvature go from one phase to the other: 'smooth step' with "
+              "c^2 (3 - 2 c), whose slope vanishes in both phases, or 'linear' with the composition c; "
+              "constant beyond 0 and 1.",
+              {{"smooth step", Interpolation::smooth_step}, {"linear", Interpolation::linear}});
+}
+
+void Bending::check() const
+{
+  Bending copy(*this);
+  dealii::ParameterHandler prm;
+  copy.add_parameters(prm);
+}
+
 void ArclengthConstraint::add_parameters(dealii::ParameterHandler &prm)
 {
   Section section(prm, {"Membrane", "Arclength constraint"});
   section.add("Model", model,
               "'none': the membrane may stretch. 'penalty': the tension grows by Lambda (L - L_0), the same "
-              "everywhere, with L the arclength (the area in 3D).",
-              {{"none", ArclengthModel::none}, {"penalty", ArclengthModel::penalty}});
+              "everywhere, with L the arclength (the area in 3D). 'multiplier': a tension that is the same "
+              "everywhere keeps L = L_0 up to the error of a single step, which the next one removes.",
+              {{"none", ArclengthModel::none},
+               {"penalty", ArclengthModel::penalty},
+               {"multiplier", ArclengthModel::multiplier}});
   section.add(
       "Penalty", penalty,
       "Lambda of the model 'penalty': tension per length (dimensionless). Source: Li, Lowengrub, Voigt "
       "(2012).",
       Range::non_negative());
   section.add("Reference arclength", reference_arclength,
-              "L_0 of the model 'penalty' (dimensionless length); 0 stands for the initial arclength.",
+              "L_0 of the models 'penalty' and 'multiplier' (dimensionless length); 0 stands for the initial "
+              "arclength.",
               Range::non_negative());
 }
 

@@ -36,13 +36,23 @@ CahnHilliard<dim>::CahnHilliard(const MembraneModel &model, const Parameters::Su
 }
 
 template <int dim>
+MembraneModel::ChemicalPotential
+CahnHilliard<dim>::local_potential(const unsigned int cell, const unsigned int q, const double value) const
+{
+  const double total = total_at_points[cell][q];
+  return curvature_at_points != nullptr
+             ? model.local_chemical_potential(value, total, (*curvature_at_points)[cell][q])
+             : model.local_chemical_potential(value, total);
+}
+
+template <int dim>
 void CahnHilliard<dim>::linearise()
 {
   slope = intercept = f_at_points;
   for (unsigned int k = 0; k < f_at_points.size(); ++k)
     for (unsigned int q = 0; q < f_at_points[k].size(); ++q)
     {
-      const auto local = model.local_chemical_potential(f_at_points[k][q], total_at_points[k][q]);
+      const auto local = local_potential(k, q, f_at_points[k][q]);
       slope[k][q] = local.by_f;
       intercept[k][q] = local.value - local.by_f * f_at_points[k][q];
     }
@@ -57,7 +67,7 @@ std::pair<double, double> CahnHilliard<dim>::update_points(const TraceSpace<dim>
   for (unsigned int k = 0; k < f_at_points.size(); ++k)
     for (unsigned int q = 0; q < f_at_points[k].size(); ++q)
     {
-      const double value = model.local_chemical_potential(f_at_points[k][q], total_at_points[k][q]).value;
+      const double value = local_potential(k, q, f_at_points[k][q]).value;
       const double new_intercept = value - slope[k][q] * f_at_points[k][q];
       const double difference = std::abs(new_intercept - intercept[k][q]);
       // a maximum would swallow NaN
@@ -150,6 +160,7 @@ void CahnHilliard<dim>::advance(const TraceSpace<dim> &space, const SurfaceStep<
 {
   total_at_points = at_points<dim, 2>(space.geometry(), total_concentration);
   f_at_points = at_points<dim, 3>(space.geometry(), *step.predicted_concentration);
+  curvature_at_points = step.curvature;
   begin_system(space, 2, system);
 
   // A good predictor makes the matrix of the first iteration good for all: it is renewed only when the error
@@ -182,10 +193,13 @@ void CahnHilliard<dim>::advance(const TraceSpace<dim> &space, const SurfaceStep<
 
 template <int dim>
 void CahnHilliard<dim>::initialise(const TraceSpace<dim> &space, const TraceField<dim> &concentration,
-                                   const TraceField<dim> &total_concentration)
+                                   const TraceField<dim> &total_concentration,
+                                   const MembranePointValues *const curvature)
 {
   constexpr unsigned int n = TraceSpace<dim>::Basis::n;
   f = concentration;
+  total_at_points = at_points<dim, 2>(space.geometry(), total_concentration);
+  curvature_at_points = curvature;
   ElementSystem projection(communicator, true);
   begin_system(space, 1, projection);
   projection.zero_matrix();
@@ -210,10 +224,7 @@ void CahnHilliard<dim>::initialise(const TraceSpace<dim> &space, const TraceFiel
       {
         point.reinit(*cell.cut, q);
         const double weight = cell.cut->surface_weights[q];
-        const double value = model
-                                 .local_chemical_potential(point.value(nodal_f),
-                                                           point.value(total_concentration[cell.cut_index]))
-                                 .value;
+        const double value = local_potential(cell.cut_index, q, point.value(nodal_f)).value;
         const auto gradient = square * point.surface_gradient(nodal_f);
         for (unsigned int i = 0; i < n; ++i)
         {

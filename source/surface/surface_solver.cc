@@ -26,7 +26,8 @@ void SurfaceSolver<dim>::reinit_mesh()
 template <int dim>
 void SurfaceSolver<dim>::initialise(const CutGeometry<dim> &geometry, const DoFHandler<dim> &level_set_dofs,
                                     const Vector &level_set, const Function<dim> &concentration,
-                                    const Function<dim> &total_concentration)
+                                    const Function<dim> &total_concentration,
+                                    const MembranePointValues *const curvature)
 {
   space.prepare(geometry, level_set_dofs, level_set, {{nullptr, nullptr}});
   const auto projection = [&](const Function<dim> &function)
@@ -35,7 +36,7 @@ void SurfaceSolver<dim>::initialise(const CutGeometry<dim> &geometry, const DoFH
                         [&](unsigned int, unsigned int, const Point<dim> &x) { return function.value(x); });
   };
   total = projection(total_concentration);
-  phases.initialise(space, projection(concentration), total);
+  phases.initialise(space, projection(concentration), total, curvature);
   compute_diagnostics();
 }
 
@@ -63,19 +64,22 @@ void SurfaceSolver<dim>::compute_diagnostics()
 }
 
 template <int dim>
-std::vector<std::vector<double>> SurfaceSolver<dim>::tension() const
+MembranePointValues SurfaceSolver<dim>::tension(const MembranePointValues *const curvature) const
 {
   const auto &cells = space.geometry().cut_cells();
-  std::vector<std::vector<double>> sigma(cells.size());
+  MembranePointValues sigma(cells.size());
   SurfacePoint<dim> point;
   for (unsigned int k = 0; k < cells.size(); ++k)
     for (unsigned int q = 0; q < cells[k].surface_points.size(); ++q)
     {
       point.reinit(cells[k], q);
       const auto &f = phases.concentration()[k];
-      sigma[k].push_back(model.tension(point.value(f), point.value(total[k]),
-                                       point.value(phases.chemical_potential()[k]),
-                                       point.surface_gradient(f).norm_square()));
+      const double value = point.value(f), total_value = point.value(total[k]),
+                   potential = point.value(phases.chemical_potential()[k]),
+                   gradient_square = point.surface_gradient(f).norm_square();
+      sigma[k].push_back(curvature != nullptr
+                             ? model.tension(value, total_value, potential, gradient_square, (*curvature)[k][q])
+                             : model.tension(value, total_value, potential, gradient_square));
     }
   return sigma;
 }

@@ -9,6 +9,7 @@
 #include <gemmule/mesh/mesh_adaptation.h>
 #include <gemmule/model/membrane_model.h>
 #include <gemmule/parameters/all_parameters.h>
+#include <gemmule/surface/membrane_bending.h>
 #include <gemmule/surface/surface_solver.h>
 
 #include <deal.II/base/timer.h>
@@ -67,6 +68,8 @@ public:
   const CutGeometry<dim> &get_geometry() const { return geometry; }
   /** nullptr with a prescribed tension. */
   const SurfaceSolver<dim> *get_surface() const { return surface.get(); }
+  /** nullptr without bending. */
+  const MembraneBending<dim> *get_bending() const { return bending.get(); }
   const StokesSolver<dim> &get_flow() const { return flow; }
   const MembraneModel &get_model() const { return model; }
   /** sigma with the arclength constraint's part, per owned cut cell and quadrature point. */
@@ -85,9 +88,14 @@ private:
   void cut_mesh(bool keep_area);
 
   void check_wall() const;
+  /** Curvature for the bending energy at the quadrature points of the cut mesh; nullptr without bending. */
+  const MembranePointValues *compute_curvature();
   /** @param old_velocity of the same material points one step ago; nullptr at the start */
   void solve_flow(double time, double dt, const CutCellVector<dim> *old_velocity);
   double compute_capillary_time_step() const;
+  bool has_arclength_multiplier() const;
+  /** The arclength that a multiplier gives the membrane in the next step. */
+  double next_arclength() const;
   MembraneSnapshot<dim> take_snapshot(double time,
                                       const std::vector<TransportedFields<dim>> &transported) const;
 
@@ -102,6 +110,7 @@ private:
   LevelSet<dim> level_set;
   CutGeometry<dim> geometry;
   std::unique_ptr<SurfaceSolver<dim>> surface;
+  std::unique_ptr<MembraneBending<dim>> bending; ///< nullptr without bending
   StokesSolver<dim> flow;
   MeshAdaptation<dim> adaptation;
 

@@ -38,9 +38,9 @@ public:
   void make_level_set(const dealii::Point<dim> &origin, LevelSet<dim> &level_set,
                       CutGeometry<dim> &geometry) const;
 
-  /** Initial concentrations on that membrane. Collective. */
+  /** Initial concentrations on that membrane. @p curvature of it; nullptr without bending. Collective. */
   void make_phases(const LevelSet<dim> &level_set, const CutGeometry<dim> &geometry,
-                   SurfaceSolver<dim> &surface) const;
+                   SurfaceSolver<dim> &surface, const MembranePointValues *curvature) const;
 
 private:
   /** Where the membrane is, curvature and composition there. */

@@ -39,7 +39,15 @@ public:
   StokesAssembler(const UnfittedStokesSpace<dim> &space, const Parameters::Fluid &fluid,
                   const Parameters::Flow &discretisation);
 
-  /** Elements and matrix for the position of the membrane for which the space was numbered. Collective. */
+  /**
+   * Starts the system with the elements for the position of the membrane for which the space was numbered.
+   * More elements, and then ElementSystem::finish_elements(), may follow before assemble().
+   * @param n_additional_unknowns room for unknowns of others, after those of the flow
+   */
+  void add_elements(const CutGeometry<dim> &geometry, ElementSystem &system,
+                    unsigned int n_additional_unknowns = 0);
+
+  /** Sets the matrix to that of the flow. */
   void assemble(const CutGeometry<dim> &geometry, ElementSystem &system);
 
   /** Right side due to the velocity on the boundary: this rank's part. */

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <gemmule/flow/bending_force.h>
 #include <gemmule/flow/membrane_force.h>
+#include <gemmule/flow/semi_implicit_bending.h>
 #include <gemmule/flow/semi_implicit_tension.h>
 #include <gemmule/flow/stokes_assembler.h>
 #include <gemmule/flow/stokes_solution.h>
@@ -10,11 +12,12 @@ namespace Gemmule
 {
 /**
  * Penalty Lambda (L - L0) on the arclength L, taken implicitly: the tension of the end of a time step of size
- * dt is Lambda (L - L0 + dt dL/dt) with dL/dt = int div_s <u>.
+ * dt is Lambda (L - L0 + dt dL/dt) with dL/dt = int div_s <u>. With Lambda infinite it is the Lagrange
+ * multiplier of dL/dt = -(L - L0)/dt.
  */
 struct ArclengthPenalty
 {
-  double stiffness; ///< Lambda >= 0
+  double stiffness; ///< Lambda >= 0, may be infinite
   double excess;    ///< L - L0 of the membrane for which the flow is solved
   double time_step; ///< dt; 0 makes the penalty explicit
 };
@@ -41,18 +44,21 @@ public:
   /**
    * Assembles and factorises. @p geometry must stay unchanged as long as solve() and the results are used.
    * @param boundary_velocity u_infinity, dim components, its time set by the caller
-   * @param semi_implicit damping of the fast shape modes, nullptr for none; what it points to must stay as
-   * long as solve() is used Throws SimulationError (membrane at the boundary, factorisation) and UserError
-   * (u_infinity with net flux).
+   * @param semi_implicit, semi_implicit_bending damping of the fast shape modes, nullptr for none; what they
+   * point to must stay as long as solve() is used
+   * Throws SimulationError (membrane at the boundary, factorisation) and UserError (u_infinity with net flux).
    */
   void prepare(const CutGeometry<dim> &geometry, const dealii::Function<dim> &boundary_velocity,
-               const SemiImplicitTension<dim> *semi_implicit = nullptr);
+               const SemiImplicitTension<dim> *semi_implicit = nullptr,
+               SemiImplicitBending<dim> *semi_implicit_bending = nullptr);
 
   /**
    * @param tension sigma at the quadrature points of the membrane, without the penalty
    * @param penalty adds its tension to sigma; nullptr for none
+   * @param bending adds the bending force; nullptr for none
    */
-  void solve(const MembraneScalar &tension, const ArclengthPenalty *penalty = nullptr);
+  void solve(const MembraneScalar &tension, const ArclengthPenalty *penalty = nullptr,
+             const BendingForce<dim> *bending = nullptr);
 
   /** <u> on the locally owned cut cells, in the order of CutGeometry::cut_cells(). */
   const std::vector<MembraneVelocity<dim>> &membrane_velocity() const { return velocity; }
@@ -61,7 +67,9 @@ public:
   double arclength_rate() const { return rate; }
   /** Lambda (L - L0 + dt dL/dt) of the last solve(), which the given tension does not contain. */
   double constraint_tension() const { return penalty_tension; }
-  /** -int sigma_total div_s <u>: equals viscous_dissipation() up to discretisation if the boundary is at
+  /** The part of membrane_velocity() per unit of the constraint's tension; after a solve() with a penalty. */
+  const std::vector<MembraneVelocity<dim>> &tension_velocity() const { return unit_tension_velocity; }
+  /** -int sigma_total div_s <u>, less what bending takes up: equals viscous_dissipation() up to discretisation if the boundary is at
    * rest. */
   double membrane_work() const { return work; }
   /** int <u>.n: zero but for the error of the quadrature. */
@@ -89,9 +97,10 @@ private:
   StokesSolution<dim> bulk;
   const CutGeometry<dim> *geometry = nullptr;
   const SemiImplicitTension<dim> *semi_implicit = nullptr;
+  const SemiImplicitBending<dim> *semi_implicit_bending = nullptr;
 
   std::vector<double> rhs; ///< what does not depend on the tension
-  std::vector<MembraneVelocity<dim>> velocity;
+  std::vector<MembraneVelocity<dim>> velocity, unit_tension_velocity;
   double rate = 0.;
   double penalty_tension = 0.;
   double work = 0.;

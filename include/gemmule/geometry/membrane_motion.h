@@ -42,11 +42,21 @@ public:
   /** Displacement of a point of the old membrane. */
   dealii::Tensor<1, dim> displacement(const ClosestPoint<dim> &p) const;
 
+  /**
+   * Adds to u* the velocity due to a uniform tension (field tension_velocity) such that the moved membrane has
+   * the length (area in 3D) @p measure, once a shift along its normal has made its volume @p volume: what the
+   * extrapolation of the velocity lacks to keep the arclength. Newton's method on integrals over @p cloud,
+   * the quadrature points of the old membrane. Does nothing where a tension hardly changes the length (circle).
+   * @return the added tension
+   */
+  double fit_measure(const MembraneCloud<dim> &cloud, double measure, double volume);
+
   const MembraneProjection<dim> &old_membrane() const { return projection; }
 
 private:
   const MembraneProjection<dim> &projection;
   double dt;
   double velocity_weight, previous_velocity_weight, displacement_weight, inverse_a0;
+  double added_tension = 0.;
 };
 } // namespace Gemmule

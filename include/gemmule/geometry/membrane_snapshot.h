@@ -25,6 +25,7 @@ struct MembraneFields
   Vector velocity{};          ///< velocity <u> that moves the membrane
   Vector displacement{};      ///< x - X, X the position of the same material point at the previous time level
   Vector previous_velocity{}; ///< <u> of the previous time level at X
+  Vector tension_velocity{};  ///< velocity due to a uniform tension of one; with an arclength multiplier only
   Scalar previous_concentration{};  ///< f of the previous time level at X
   Scalar preceding_concentration{}; ///< f of the level before that, at the same material point
   Scalar concentration{};           ///< f

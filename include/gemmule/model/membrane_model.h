@@ -1,5 +1,6 @@
 #pragma once
 
+#include <gemmule/model/bending_model.h>
 #include <gemmule/model/energy_density.h>
 #include <gemmule/parameters/membrane.h>
 
@@ -17,24 +18,30 @@ class MembraneModel
 {
 public:
   /** @throws UserError if a parameter names an unknown energy */
-  MembraneModel(const Parameters::Membrane &membrane, const Parameters::Regularisation &regularisation);
+  MembraneModel(const Parameters::Membrane &membrane, const Parameters::Regularisation &regularisation,
+                const Parameters::Bending &bending = {});
 
   /** With energies of one's own. */
   MembraneModel(std::unique_ptr<DoubleWell> double_well, std::unique_ptr<SurfaceEnergy> surface_energy,
-                const Parameters::Membrane &membrane, const Parameters::Regularisation &regularisation);
+                const Parameters::Membrane &membrane, const Parameters::Regularisation &regularisation,
+                const Parameters::Bending &bending = {});
 
   double peclet_number() const { return peclet; }
   double cahn_number() const { return cahn; }
   double mach_number() const { return mach; }
   const Parameters::Regularisation &regularisation() const { return choice; }
+  const BendingModel &bending() const { return bending_model; }
 
   /** Part of the chemical potential that needs no derivative of f along the membrane, and its derivative. */
   struct ChemicalPotential
   {
-    double value; ///< g_f + M gamma_f
-    double by_f;  ///< g_ff + M gamma_ff
+    double value; ///< g_f + M gamma_f (+ M w_f)
+    double by_f;  ///< g_ff + M gamma_ff (+ M w_ff)
   };
   ChemicalPotential local_chemical_potential(double f, double fbar) const;
+
+  /** The same with the part M w_f = M w_c / fbar of the bending energy w(curvature, c), c = f / fbar. */
+  ChemicalPotential local_chemical_potential(double f, double fbar, double curvature) const;
 
   /**
    * Tension without the arclength constraint,
@@ -46,6 +53,14 @@ public:
    * that no second derivative occurs. The last term belongs to the compressibility regularisation.
    */
   double tension(double f, double fbar, double chemical_potential, double squared_surface_gradient_f) const;
+
+  /**
+   * The same for a membrane with bending energy w(curvature, f / fbar): C^2 Laplace_s f is then
+   * g_f + M gamma_f + M w_f - mu, which adds f w_f. (w itself, and its part of the tension, belong to the
+   * bending force: f w_f + fbar w_fbar = 0.)
+   */
+  double tension(double f, double fbar, double chemical_potential, double squared_surface_gradient_f,
+                 double curvature) const;
 
   /**
    * E = -d sigma / d log(length) of the regularisation, for a stretch that keeps the composition: K fbar^2
@@ -91,5 +106,6 @@ private:
   std::unique_ptr<SurfaceEnergy> surface_energy;
   double peclet, cahn, mach;
   Parameters::Regularisation choice;
+  BendingModel bending_model;
 };
 } // namespace Gemmule

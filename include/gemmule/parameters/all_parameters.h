@@ -33,6 +33,7 @@ struct AllParameters
   Fluid fluid;
   Membrane membrane;
   Regularisation regularisation;
+  Bending bending;
   ArclengthConstraint arclength;
   Mesh mesh;
   Flow flow;

@@ -70,11 +70,37 @@ struct Regularisation
   void check() const;
 };
 
+/** How a quantity goes from one phase to the other with the composition. */
+enum class Interpolation
+{
+  linear,
+  smooth_step
+};
+
+/** Section "Membrane/Bending": Helfrich energy (k/2)(curvature - spontaneous curvature)^2 (design, section 6). */
+struct Bending
+{
+  /** k of the phases with composition 0 and 1. */
+  double rigidity_0 = 0.;
+  double rigidity_1 = 0.;
+  /** Spontaneous curvatures of the phases with composition 0 and 1. */
+  double spontaneous_curvature_0 = 0.;
+  double spontaneous_curvature_1 = 0.;
+  Interpolation interpolation = Interpolation::smooth_step;
+
+  /** Does the membrane resist bending at all? */
+  bool is_active() const { return rigidity_0 > 0. || rigidity_1 > 0.; }
+
+  void add_parameters(dealii::ParameterHandler &prm);
+  void check() const;
+};
+
 /** How the arclength (2D) or the area (3D) of the membrane is held. */
 enum class ArclengthModel
 {
   none,
-  penalty
+  penalty,
+  multiplier
 };
 
 /** Section "Membrane/Arclength constraint". */

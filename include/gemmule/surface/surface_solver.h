@@ -37,10 +37,15 @@ public:
   /** Call after every change of the mesh. Collective. */
   void reinit_mesh();
 
-  /** Projects the initial concentrations, and computes mu from its definition. Collective. */
+  /**
+   * Projects the initial concentrations, and computes mu from its definition.
+   * @param curvature at the quadrature points, nullptr without bending
+   * Collective.
+   */
   void initialise(const CutGeometry<dim> &geometry, const dealii::DoFHandler<dim> &level_set_dofs,
                   const Vector &level_set, const dealii::Function<dim> &concentration,
-                  const dealii::Function<dim> &total_concentration);
+                  const dealii::Function<dim> &total_concentration,
+                  const MembranePointValues *curvature = nullptr);
 
   /**
    * Takes the fields to the membrane of @p geometry, that of the end of @p step.
@@ -55,8 +60,11 @@ public:
   const TraceField<dim> &total_concentration() const { return total; }
   const TraceField<dim> &chemical_potential() const { return phases.chemical_potential(); }
 
-  /** Tension without arclength constraint, for each locally owned cut cell at its quadrature points. */
-  std::vector<std::vector<double>> tension() const;
+  /**
+   * Tension without arclength constraint, for each locally owned cut cell at its quadrature points.
+   * @param curvature with which mu has been computed; nullptr without bending
+   */
+  MembranePointValues tension(const MembranePointValues *curvature = nullptr) const;
 
   const SurfaceDiagnostics &diagnostics() const { return figures; }
 

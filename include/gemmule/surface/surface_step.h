@@ -18,6 +18,9 @@ struct MembraneCloud;
 template <int dim>
 using TraceField = std::vector<std::array<double, TensorLagrange<dim, 2>::n>>;
 
+/** One number per quadrature point of the membrane: [locally owned cut cell][point], as in CutGeometry. */
+using MembranePointValues = std::vector<std::vector<double>>;
+
 /** A field given to the surface equations: Q3 nodal values (lexicographic) of each locally owned cut cell. */
 template <int dim>
 using CutCellScalar = std::vector<std::array<double, TensorLagrange<dim, 3>::n>>;
@@ -40,6 +43,9 @@ struct SurfaceStep
   const CutCellVector<dim> *velocity = nullptr;                ///< <u> at t_n (extrapolated)
   const CutCellScalar<dim> *predicted_concentration = nullptr; ///< f at t_n, first guess of Newton's method
   const CutCellScalar<dim> *predicted_total_concentration = nullptr; ///< fbar at t_n; update smoothing only
+
+  /** Curvature of the membrane at t_n, for its part of the chemical potential; nullptr without bending. */
+  const MembranePointValues *curvature = nullptr;
 
   /** fbar at t_{n-1}, t_{n-2}, normally extended from the membranes of then; update smoothing only. */
   std::array<const CutCellScalar<dim> *, 2> extended_total_concentration{{nullptr, nullptr}};

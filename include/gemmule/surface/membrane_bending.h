@@ -1,0 +1,74 @@
+#pragma once
+
+#include <gemmule/algebra/element_system.h>
+#include <gemmule/model/bending_model.h>
+#include <gemmule/surface/trace_space.h>
+
+namespace Gemmule
+{
+/**
+ * Curvature and bending moment of the membrane in the trace space (Q2), from weak forms with first
+ * derivatives only (design section 6; Dziuk 2008 for the curvature vector):
+ *
+ *   int K.w + h int_band (n.grad K).(n.grad w) = int (I - n n^T) : grad w      for all vectors w,
+ *   int m v + h int_band (n.grad m)(n.grad v) = int k(c) (kappa - kappa_0(c)) v  for all v,   kappa = K.n.
+ *
+ * The right side of the first is the variation of the length of the membrane in the direction w, so that
+ * kappa sees every displacement that changes the length, also those as short as a cell.
+ */
+template <int dim>
+class MembraneBending
+{
+public:
+  using Vector = dealii::LinearAlgebra::distributed::Vector<double>;
+  using PointValues = MembranePointValues;
+
+  /** @p model is kept by reference. */
+  MembraneBending(const dealii::Triangulation<dim> &triangulation, const BendingModel &model);
+
+  /** Call after every change of the mesh. Collective. */
+  void reinit_mesh();
+
+  /**
+   * Curvature of the membrane of @p geometry, which must stay until the next call. Throws SimulationError.
+   * @param level_set_dofs, level_set Q3 level set, ghosted
+   * Collective.
+   */
+  void compute_curvature(const CutGeometry<dim> &geometry, const dealii::DoFHandler<dim> &level_set_dofs,
+                         const Vector &level_set);
+
+  /**
+   * Moment and energy for the concentrations on the cut cells; nullptr stands for composition 0 everywhere.
+   * Needs compute_curvature(). Collective.
+   */
+  void compute_moment(const TraceField<dim> *concentration, const TraceField<dim> *total_concentration);
+
+  /** kappa at the quadrature points of the locally owned cut cells. */
+  const PointValues &curvature() const { return curvature_at_points; }
+  /** m = k (kappa - kappa_0) as a trace field. */
+  const TraceField<dim> &moment() const { return moment_field; }
+  /** k (kappa - kappa_0) and w at the quadrature points. */
+  const PointValues &moment_at_points() const { return moments; }
+  const PointValues &energy_density() const { return energies; }
+
+  /** w - m kappa = (k/2)(kappa_0^2 - kappa^2): what multiplies div_s v in the force in 2D. */
+  PointValues tension() const;
+
+  /** int w over the membrane, on all ranks. */
+  double energy() const { return total_energy; }
+
+  /** The space of curvature and moment on the cut cells. */
+  const TraceSpace<dim> &trace_space() const { return space; }
+  const BendingModel &get_model() const { return model; }
+
+private:
+  void assemble_mass_matrix();
+
+  const BendingModel &model;
+  TraceSpace<dim> space;
+  ElementSystem system;
+  PointValues curvature_at_points, moments, energies;
+  TraceField<dim> moment_field;
+  double total_energy = 0.;
+};
+} // namespace Gemmule

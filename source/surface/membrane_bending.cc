@@ -1,0 +1,140 @@
+#include <gemmule/geometry/membrane_snapshot.h>
+#include <gemmule/surface/membrane_bending.h>
+#include <gemmule/surface/trace_forms.h>
+
+#include <deal.II/base/mpi.h>
+
+namespace Gemmule
+{
+using namespace dealii;
+
+template <int dim>
+MembraneBending<dim>::MembraneBending(const Triangulation<dim> &triangulation, const BendingModel &model)
+    : model(model), space(triangulation), system(triangulation.get_communicator(), true)
+{
+}
+
+template <int dim>
+void MembraneBending<dim>::reinit_mesh()
+{
+  space.reinit_mesh();
+}
+
+template <int dim>
+void MembraneBending<dim>::assemble_mass_matrix()
+{
+  constexpr unsigned int n = TraceSpace<dim>::Basis::n;
+  begin_system(space, 1, system);
+  system.zero_matrix();
+  FullMatrix<double> matrix(n, n);
+  SurfacePoint<dim> point;
+  for (unsigned int k = 0; k < space.band().size(); ++k)
+  {
+    const BandCell<dim> &cell = space.band()[k];
+    matrix.equ(cell.size, cell.normal_derivatives);
+    for (unsigned int q = 0; q < cell.cut->surface_points.size(); ++q)
+    {
+      point.reinit(*cell.cut, q);
+      for (unsigned int i = 0; i < n; ++i)
+        for (unsigned int j = 0; j < n; ++j)
+          matrix(i, j) += cell.cut->surface_weights[q] * point.values[i] * point.values[j];
+    }
+    system.add_matrix(k, matrix);
+  }
+  system.factorise();
+}
+
+template <int dim>
+void MembraneBending<dim>::compute_curvature(const CutGeometry<dim> &geometry,
+                                             const DoFHandler<dim> &level_set_dofs, const Vector &level_set)
+{
+  constexpr unsigned int n = TraceSpace<dim>::Basis::n;
+  // Without clouds the band consists of the cut cells.
+  space.prepare(geometry, level_set_dofs, level_set, {{nullptr, nullptr}});
+  assemble_mass_matrix();
+
+  std::vector<std::vector<double>> solutions(dim, std::vector<double>(space.n_unknowns(), 0.));
+  SurfacePoint<dim> point;
+  std::array<std::array<double, n>, dim> local;
+  for (unsigned int k = 0; k < space.band().size(); ++k)
+  {
+    const CutCell<dim> &cell = *space.band()[k].cut;
+    for (auto &component : local)
+      component.fill(0.);
+    for (unsigned int q = 0; q < cell.surface_points.size(); ++q)
+    {
+      point.reinit(cell, q);
+      for (unsigned int c = 0; c < dim; ++c)
+        for (unsigned int i = 0; i < n; ++i)
+          local[c][i] += cell.surface_weights[q] * point.surface_gradients[i][c];
+    }
+    for (unsigned int c = 0; c < dim; ++c)
+      system.add_rhs(k, local[c].data(), solutions[c]);
+  }
+  system.solve(solutions);
+
+  curvature_at_points.assign(geometry.cut_cells().size(), {});
+  for (unsigned int k = 0; k < curvature_at_points.size(); ++k)
+    curvature_at_points[k].assign(geometry.cut_cells()[k].surface_points.size(), 0.);
+  for (unsigned int c = 0; c < dim; ++c)
+  {
+    const TraceField<dim> component = space.extract(solutions[c]);
+    for (unsigned int k = 0; k < curvature_at_points.size(); ++k)
+    {
+      const CutCell<dim> &cell = geometry.cut_cells()[k];
+      for (unsigned int q = 0; q < cell.surface_points.size(); ++q)
+        curvature_at_points[k][q] += TraceSpace<dim>::Basis::value(component[k], cell.surface_points[q]) *
+                                     cell.normals[q][c];
+    }
+  }
+}
+
+template <int dim>
+void MembraneBending<dim>::compute_moment(const TraceField<dim> *const concentration,
+                                          const TraceField<dim> *const total_concentration)
+{
+  using Basis = typename TraceSpace<dim>::Basis;
+  moments = energies = curvature_at_points;
+  std::vector<double> solution(space.n_unknowns(), 0.);
+  std::array<double, Basis::n> local;
+  SurfacePoint<dim> point;
+  double energy = 0.;
+  for (unsigned int b = 0; b < space.band().size(); ++b)
+  {
+    const CutCell<dim> &cell = *space.band()[b].cut;
+    const unsigned int k = space.band()[b].cut_index;
+    local.fill(0.);
+    for (unsigned int q = 0; q < cell.surface_points.size(); ++q)
+    {
+      point.reinit(cell, q);
+      const double composition =
+          concentration != nullptr
+              ? point.value((*concentration)[k]) / point.value((*total_concentration)[k])
+              : 0.;
+      const auto bending = model.evaluate(curvature_at_points[k][q], composition);
+      moments[k][q] = bending.moment;
+      energies[k][q] = bending.energy;
+      energy += cell.surface_weights[q] * bending.energy;
+      for (unsigned int i = 0; i < Basis::n; ++i)
+        local[i] += cell.surface_weights[q] * bending.moment * point.values[i];
+    }
+    system.add_rhs(b, local.data(), solution);
+  }
+  system.solve(solution);
+  moment_field = space.extract(solution);
+  total_energy = Utilities::MPI::sum(energy, space.communicator());
+}
+
+template <int dim>
+MembranePointValues MembraneBending<dim>::tension() const
+{
+  PointValues result = energies;
+  for (unsigned int k = 0; k < result.size(); ++k)
+    for (unsigned int q = 0; q < result[k].size(); ++q)
+      result[k][q] -= moments[k][q] * curvature_at_points[k][q];
+  return result;
+}
+
+template class MembraneBending<2>;
+template class MembraneBending<3>;
+} // namespace Gemmule

@@ -1,0 +1,102 @@
+#include <gemmule/model/membrane_model.h>
+
+#include <cmath>
+#include <gtest/gtest.h>
+
+using namespace Gemmule;
+
+namespace
+{
+Parameters::Bending two_phases(const Parameters::Interpolation interpolation)
+{
+  Parameters::Bending parameters;
+  parameters.rigidity_0 = 0.5;
+  parameters.rigidity_1 = 2.;
+  parameters.spontaneous_curvature_0 = 1.;
+  parameters.spontaneous_curvature_1 = -3.;
+  parameters.interpolation = interpolation;
+  return parameters;
+}
+} // namespace
+
+class BendingEnergy : public testing::TestWithParam<Parameters::Interpolation>
+{
+};
+
+TEST_P(BendingEnergy, HasTheParametersOfThePhases)
+{
+  const BendingModel model(two_phases(GetParam()));
+  // also beyond 0 and 1
+  for (const double c : {0., -0.1})
+  {
+    EXPECT_DOUBLE_EQ(model.evaluate(1., c).rigidity, 0.5);
+    EXPECT_DOUBLE_EQ(model.evaluate(1., c).spontaneous_curvature, 1.);
+  }
+  for (const double c : {1., 1.2})
+  {
+    EXPECT_DOUBLE_EQ(model.evaluate(1., c).rigidity, 2.);
+    EXPECT_DOUBLE_EQ(model.evaluate(1., c).spontaneous_curvature, -3.);
+    EXPECT_DOUBLE_EQ(model.evaluate(1., c).energy, 0.5 * 2. * 16.);
+  }
+  EXPECT_EQ(model.largest_rigidity(), 2.);
+}
+
+TEST_P(BendingEnergy, DerivativesMatchDifferences)
+{
+  const BendingModel model(two_phases(GetParam()));
+  const double s = 1e-5;
+  for (const double curvature : {-2., 0.5, 4.})
+    for (const double c : {-0.2, 0.1, 0.5, 0.8, 1.1})
+    {
+      const auto local = model.evaluate(curvature, c);
+      const auto east = model.evaluate(curvature, c + s), west = model.evaluate(curvature, c - s);
+      EXPECT_NEAR(local.by_composition, (east.energy - west.energy) / (2. * s), 1e-7);
+      EXPECT_NEAR(local.by_composition_twice, (east.by_composition - west.by_composition) / (2. * s), 1e-7);
+      EXPECT_NEAR(local.moment,
+                  (model.evaluate(curvature + s, c).energy - model.evaluate(curvature - s, c).energy) / (2. * s),
+                  1e-8);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Interpolations, BendingEnergy,
+                         testing::Values(Parameters::Interpolation::linear,
+                                         Parameters::Interpolation::smooth_step));
+
+TEST(BendingOfTheMembrane, ChemicalPotentialIsTheDerivativeOfTheWholeEnergy)
+{
+  Parameters::Membrane membrane;
+  membrane.mach_number = 0.7;
+  const MembraneModel model(membrane, {}, two_phases(Parameters::Interpolation::smooth_step));
+  const double s = 1e-5, curvature = 2.5, t = 1.2;
+  for (const double f : {0.2, 0.6, 1.})
+  {
+    const auto energy = [&](const double x)
+    {
+      return model.surface_energy_density(x, t) + model.phase_energy_density(x, t, 0.) +
+             model.bending().evaluate(curvature, x / t).energy;
+    };
+    EXPECT_NEAR(model.local_chemical_potential(f, t, curvature).value,
+                0.7 * (energy(f + s) - energy(f - s)) / (2. * s), 1e-7);
+    EXPECT_NEAR(model.local_chemical_potential(f, t, curvature).by_f,
+                (model.local_chemical_potential(f + s, t, curvature).value -
+                 model.local_chemical_potential(f - s, t, curvature).value) /
+                    (2. * s),
+                1e-6);
+  }
+}
+
+// Where f is uniform the Laplacian that the tension contains vanishes, whatever mu consists of: the bending
+// energy, whose force is another functional, leaves no trace in the tension.
+TEST(BendingOfTheMembrane, LeavesTheTensionOfAUniformStateAlone)
+{
+  Parameters::Membrane membrane;
+  membrane.mach_number = 0.7;
+  const MembraneModel model(membrane, {}, two_phases(Parameters::Interpolation::smooth_step));
+  const double f = 0.4, t = 1.1, curvature = 2.5;
+  const double without = model.tension(f, t, model.local_chemical_potential(f, t).value, 0.);
+  EXPECT_NEAR(model.tension(f, t, model.local_chemical_potential(f, t, curvature).value, 0., curvature), without,
+              1e-13);
+  EXPECT_GT(std::abs(model.tension(f, t, model.local_chemical_potential(f, t, curvature).value, 0.) - without),
+            0.1)
+      << "the test would not notice the missing term";
+}
