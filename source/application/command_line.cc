@@ -119,7 +119,8 @@ CommandLine CommandLine::parse(const int argc, const char *const *argv)
   }
   catch (const CLI::ParseError &error)
   {
-    throw UserError(std::string(error.what()) + "." + see_help);
+    throw UserError("the command line cannot be understood: " + Parameters::in_quotes(error.what()) + "." +
+                    see_help);
   }
 
   std::vector<std::string> options;

@@ -16,6 +16,7 @@ namespace
 {
   // A file with every parameter and its description has 20 kB.
   constexpr std::uintmax_t largest_file = 10 * 1024 * 1024;
+  const std::string command_line = "command line";
 
   /** Removes blanks at both ends and makes each run of blanks in between one space. */
   std::string normalise(const std::string &text)
@@ -173,12 +174,15 @@ void StrictParser::parse_line(const std::string &line, const std::string &place)
 
 void StrictParser::parse_override(const std::string &assignment)
 {
-  const std::string place = "command line";
+  const std::string place = command_line;
   const std::string::size_type equals = assignment.find('=');
   if (equals == std::string::npos)
     throw UserError(place + ": --set " + in_quotes(assignment) +
                     " has no '='. Write --set \"Section/Name=value\", for example --set \"Fluid/Capillary "
                     "number=0.5\".");
+  if (dealii::Utilities::trim(assignment.substr(0, equals)).empty())
+    throw UserError(place + ": --set " + in_quotes(assignment) +
+                    " names no parameter. Write --set \"Section/Name=value\".");
 
   // The run writes its parameters down as a file, which has to hold the value.
   const std::string value = dealii::Utilities::trim(assignment.substr(equals + 1));
@@ -200,6 +204,8 @@ void StrictParser::parse_override(const std::string &assignment)
       unknown_section(section, name, place);
     section = Schema::join(section, name);
   }
+  if (!sections.empty() && sections.back() == '/') // getline() does not see the empty name at the end
+    unknown_section(section, "", place);
   assign(section, normalise(key), value, place, set_on_command_line);
 }
 
@@ -235,8 +241,10 @@ void StrictParser::assign(const std::string &section, const std::string &key, co
   if (entry == schema.entries().end())
     unknown_key(section, key, place);
   if (const auto earlier = already_set.find(path); earlier != already_set.end())
-    throw UserError(place + ": the parameter '" + path + "' is given twice, first at " + earlier->second +
-                    ". Remove one of them.");
+    throw UserError(
+        place + ": the parameter '" + path + "' is given twice" +
+        (place == command_line ? " (--output sets 'Output directory')" : ", first at " + earlier->second) +
+        ". Remove one of them.");
 
   unsigned int depth = 0;
   std::istringstream stream(section);
@@ -274,9 +282,13 @@ void StrictParser::unknown_key(const std::string &section, const std::string &ke
     remedy = "Did you mean '" + similar + "' (" +
              schema.entries().at(Schema::join(section, similar)).allowed + ")?";
   else if (!holders.empty())
-    remedy = "There is one " + in_section(holders.front()) + "; is a 'subsection' or an 'end' missing?";
+    remedy = "There is one " + in_section(holders.front()) +
+             (place == command_line ? ": write '" + Schema::join(holders.front(), key) + "=...'."
+                                    : "; is a 'subsection' or an 'end' missing?");
   else if (schema.has_section(Schema::join(section, key)))
-    remedy = "This is the name of a section: write 'subsection " + key + "' and its parameters, then 'end'.";
+    remedy = "This is the name of a section: write " +
+             (place == command_line ? "'" + Schema::join(section, key) + "/NAME=value'."
+                                    : "'subsection " + key + "' and its parameters, then 'end'.");
   else
   {
     // A typo in a parameter that belongs elsewhere.

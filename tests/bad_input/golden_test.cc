@@ -5,6 +5,11 @@
 // needs no code: add the file or the line and run this program with GEMMULE_WRITE_MESSAGES=1 in the
 // environment, which writes the present messages into the sources; then read what it has written as somebody
 // would who sees the message for the first time: does it say what is wrong, where, and what to do?
+#include <gemmule/application/vesicle_problem.h>
+#include <gemmule/parameters/all_parameters.h>
+#include <gemmule/parameters/errors.h>
+#include <gemmule/parameters/text.h>
+
 #include <algorithm>
 
 #include "bad_input_fixture.h"
@@ -57,6 +62,38 @@ namespace
 
 class BadParameterFile : public BadInput, public ::testing::WithParamInterface<std::string>
 {
+protected:
+  /** What the program says about case.prm, by the same steps but in this process: a new one takes a second.
+   */
+  std::string message_in_this_process() const
+  {
+    const auto before = std::filesystem::current_path();
+    std::filesystem::current_path(directory.path);
+    std::string message = "none: the case was accepted";
+    AllParameters parameters;
+    try
+    {
+      parameters.parse("case.prm");
+      if (parameters.dimension == 2)
+        check_case<2>(parameters, MPI_COMM_SELF);
+      else
+        check_case<3>(parameters, MPI_COMM_SELF);
+    }
+    catch (const ParameterError &error)
+    {
+      message = parameters.located(error).what();
+    }
+    catch (const UserError &error)
+    {
+      message = error.what();
+    }
+    catch (const std::exception &error)
+    {
+      message = std::string("no UserError: ") + error.what();
+    }
+    std::filesystem::current_path(before);
+    return Parameters::printable(message);
+  }
 };
 
 TEST_P(BadParameterFile, GetsItsMessage)
@@ -68,7 +105,7 @@ TEST_P(BadParameterFile, GetsItsMessage)
   const std::string expected = content.substr(begin, end - begin);
 
   directory.write("case.prm", content);
-  const std::string message = message_of("case.prm");
+  const std::string message = "gemmule: error: " + message_in_this_process();
   if (writes_messages())
     std::ofstream(source, std::ios::binary) << content.substr(0, begin) + message + content.substr(end);
   else
@@ -76,6 +113,26 @@ TEST_P(BadParameterFile, GetsItsMessage)
 }
 
 INSTANTIATE_TEST_SUITE_P(Files, BadParameterFile, ::testing::ValuesIn(names_of_files()),
+                         [](const auto &info) { return info.param; });
+
+// One of each kind goes through the program itself: exit code, output, nothing written.
+class BadCase : public BadInput, public ::testing::WithParamInterface<std::string>
+{
+};
+
+TEST_P(BadCase, EndsTheProgram)
+{
+  const std::string content = read(sources / "files" / (GetParam() + ".prm"));
+  directory.write("case.prm", content);
+  const std::string message = message_of("case.prm");
+  EXPECT_NE(content.find("\n# " + message + "\n"), std::string::npos) << message;
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, BadCase,
+                         ::testing::Values("unknown_key", "very_long_line", "zero_bytes", "box_empty",
+                                           "dimension_three", "expression_unknown_name", "velocity_pumps",
+                                           "shape_crosses_itself", "shape_leaves_the_box",
+                                           "capillary_number_denormal", "double_well_unknown"),
                          [](const auto &info) { return info.param; });
 
 class BadCommandLine : public BadInput, public ::testing::WithParamInterface<unsigned int>
