@@ -241,10 +241,11 @@ void StrictParser::assign(const std::string &section, const std::string &key, co
   if (entry == schema.entries().end())
     unknown_key(section, key, place);
   if (const auto earlier = already_set.find(path); earlier != already_set.end())
-    throw UserError(
-        place + ": the parameter '" + path + "' is given twice" +
-        (place == command_line ? " (--output sets 'Output directory')" : ", first at " + earlier->second) +
-        ". Remove one of them.");
+    throw UserError(place + ": the parameter '" + path + "' is given twice" +
+                    (place != command_line        ? ", first at " + earlier->second
+                     : path == "Output directory" ? " (--output sets it, too)"
+                                                  : "") +
+                    ". Remove one of them.");
 
   unsigned int depth = 0;
   std::istringstream stream(section);
