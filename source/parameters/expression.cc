@@ -40,7 +40,7 @@ namespace
     // Some of muParser's sentences have a full stop, some have none.
     while (!said.empty() && said.back() == '.')
       said.pop_back();
-    return said;
+    return Parameters::shortened(said);
   }
 
   /**

@@ -55,18 +55,23 @@ namespace
   }
 } // namespace
 
-std::string in_quotes(const std::string &text)
+std::string shortened(const std::string &text)
 {
   constexpr std::string::size_type most = 160, head = 100, tail = 20;
   if (text.size() <= most)
-    return "'" + text + "'";
+    return text;
   // Characters are not cut in two.
   std::string::size_type end = head, begin = text.size() - tail;
   while (end > 0 && is_continuation_byte(text[end]))
     --end;
   while (begin < text.size() && is_continuation_byte(text[begin]))
     ++begin;
-  return "'" + text.substr(0, end) + "[...]" + text.substr(begin) + "'";
+  return text.substr(0, end) + "[...]" + text.substr(begin);
+}
+
+std::string in_quotes(const std::string &text)
+{
+  return "'" + shortened(text) + "'";
 }
 
 std::string printable(const std::string &text)

@@ -4,7 +4,10 @@
 
 namespace Gemmule::Parameters
 {
-/** Quotes text in a message: in single quotes, and without its middle when it is longer than a line. */
+/** The text for a message: without its middle when it is longer than a line. */
+std::string shortened(const std::string &text);
+
+/** The same in single quotes. */
 std::string in_quotes(const std::string &text);
 
 /** The text with control characters, which could garble a terminal, written as \xNN. */
