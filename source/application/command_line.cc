@@ -2,6 +2,8 @@
 #include <gemmule/output/provenance.h>
 #include <gemmule/parameters/errors.h>
 #include <gemmule/parameters/suggestion.h>
+#include <gemmule/parameters/text.h>
+#include <gemmule/version.h>
 
 #include <CLI/CLI.hpp>
 #include <sstream>
@@ -49,12 +51,13 @@ Exit codes:
       if (argument.size() > 1 && argument[0] == '-')
       {
         const std::string similar = Parameters::nearest(argument.substr(0, argument.find('=')), options);
-        throw UserError("unknown option '" + argument + "'." +
+        throw UserError("unknown option " + Parameters::in_quotes(argument) + "." +
                         (similar.empty() ? "" : " Did you mean '" + similar + "'?") + see_help);
       }
     if (!remaining.empty())
-      throw UserError("there is more than one parameter file: '" + case_file + "' and '" + remaining.front() +
-                      "'. Give one; put values with blanks in quotation marks." + see_help);
+      throw UserError("there is more than one parameter file: " + Parameters::in_quotes(case_file) + " and " +
+                      Parameters::in_quotes(remaining.front()) +
+                      ". Give one; put values with blanks in quotation marks." + see_help);
   }
 } // namespace
 
@@ -109,7 +112,8 @@ CommandLine CommandLine::parse(const int argc, const char *const *argv)
   }
   catch (const CLI::ParseError &error)
   {
-    throw UserError(std::string(error.what()) + "." + see_help);
+    throw UserError("the command line cannot be understood: " + Parameters::in_quotes(error.what()) + "." +
+                    see_help);
   }
 
   std::vector<std::string> options;

@@ -1,5 +1,6 @@
 #include <gemmule/algebra/gather.h>
 #include <gemmule/application/coupled_system.h>
+#include <gemmule/application/initial_checks.h>
 #include <gemmule/application/initial_membrane.h>
 #include <gemmule/application/wall_cells.h>
 #include <gemmule/geometry/cloud_refinement.h>
@@ -149,6 +150,7 @@ void CoupledSystem<dim>::initialise()
   for (unsigned int c = 0; c < at_rest.size(); ++c)
     for (unsigned int i = 0; i < MembraneFields<dim>::n; ++i)
       at_rest[c].previous_velocity[i] = raise_degree<dim>(flow.membrane_velocity()[c].nodal)[i];
+  InitialChecks<dim>(parameters).flow(flow.max_velocity());
   current = take_snapshot(0., at_rest);
   current_capillary_step = compute_capillary_time_step();
 }

@@ -1,3 +1,4 @@
+#include <gemmule/application/initial_checks.h>
 #include <gemmule/application/initial_membrane.h>
 #include <gemmule/application/wall_cells.h>
 #include <gemmule/geometry/membrane_transport.h>
@@ -7,7 +8,6 @@
 #include <gemmule/parameters/section.h>
 
 #include <cmath>
-#include <sstream>
 
 namespace Gemmule
 {
@@ -18,16 +18,7 @@ namespace
   // Criteria that depend on each other through the mesh settle in a few sweeps.
   constexpr unsigned int largest_number_of_sweeps = 12;
 
-  template <int dim>
-  std::string coordinates(const Point<dim> &p)
-  {
-    std::ostringstream text;
-    text.precision(3);
-    for (unsigned int d = 0; d < dim; ++d)
-      text << (d == 0 ? "" : ", ") << p[d];
-    return text.str();
-  }
-
+  /** @throws ParameterError where the function is not finite */
   template <int dim>
   bool lattice_sign_change(const Function<dim> &function, const Point<dim> &corner, const double h)
   {
@@ -39,7 +30,10 @@ namespace
       Point<dim> p = corner;
       for (unsigned int d = 0, rest = i; d < dim; ++d, rest /= n + 1)
         p[d] += h * (rest % (n + 1)) / n;
-      (function.value(p) < 0. ? negative : positive) = true;
+      const double value = function.value(p);
+      if (!std::isfinite(value))
+        check_finite(function, {p}, "Membrane/Level set");
+      (value < 0. ? negative : positive) = true;
     }
     return negative && positive;
   }
@@ -73,28 +67,34 @@ InitialMembrane<dim>::InitialMembrane(const AllParameters &parameters_, const MP
 template <int dim>
 void InitialMembrane<dim>::find(Triangulation &triangulation) const
 {
+  const InitialChecks<dim> checks(parameters);
   for (unsigned int level = parameters.mesh.bulk_level; level <= parameters.mesh.membrane_level; ++level)
   {
-    unsigned int n_crossed = 0, n_inside = 0;
+    unsigned int n_crossed = 0, n_negative = 0;
+    std::string not_finite;
     for (const auto &cell : triangulation.active_cell_iterators())
-      if (cell->is_locally_owned())
+      if (cell->is_locally_owned() && not_finite.empty())
       {
         if (shape->value(cell->center()) < 0.)
-          ++n_inside;
-        if (lattice_sign_change(*shape, cell->vertex(0), cell->extent_in_direction(0)))
+          ++n_negative;
+        try
         {
-          ++n_crossed;
-          if (cell->level() < static_cast<int>(parameters.mesh.membrane_level))
-            cell->set_refine_flag();
+          if (!lattice_sign_change(*shape, cell->vertex(0), cell->extent_in_direction(0)))
+            continue;
         }
+        catch (const ParameterError &error)
+        {
+          not_finite = error.complaint;
+          continue;
+        }
+        ++n_crossed;
+        if (cell->level() < static_cast<int>(parameters.mesh.membrane_level))
+          cell->set_refine_flag();
       }
-    if (Utilities::MPI::sum(n_crossed, communicator) == 0)
-      throw UserError(
-          "Membrane/Level set: '" + parameters.membrane.level_set + "' has no zero in the box: it is " +
-          (Utilities::MPI::sum(n_inside, communicator) > 0 ? "negative" : "positive") +
-          " everywhere. Give a function that is negative inside the vesicle and positive outside, "
-          "for example x^2+2*y^2-0.25, or a finer 'Mesh/Bulk level' if the vesicle is tiny.");
+    checks.level_set(n_crossed, n_negative, not_finite, communicator);
     triangulation.execute_coarsening_and_refinement();
+    checks.number_of_cells(triangulation.n_global_active_cells(),
+                           std::min(level + 1, parameters.mesh.membrane_level));
   }
 }
 
@@ -103,11 +103,12 @@ void InitialMembrane<dim>::check_sign(const Triangulation &triangulation,
                                       const CutGeometry<dim> &geometry) const
 {
   const WallCells count = count_wall_cells(triangulation, geometry, communicator);
+  const InitialChecks<dim> checks(parameters);
   if (count.inside == count.all)
-    throw UserError("Membrane/Level set: '" + parameters.membrane.level_set +
-                    "' is negative along all walls of the box, but has to be positive outside the vesicle. "
-                    "Change its sign: -(" +
-                    parameters.membrane.level_set + ").");
+    checks.fail_level_set(
+        "is negative along all walls of the box, but has to be positive outside the vesicle. "
+        "Change its sign: -(" +
+        parameters.membrane.level_set + ").");
 }
 
 template <int dim>
@@ -117,12 +118,12 @@ void InitialMembrane<dim>::check_wall(const Triangulation &triangulation, const 
   if (count_wall_cells(triangulation, geometry, communicator).not_outside == 0)
     return;
   const double edge = parameters.domain.shortest_edge() * std::ldexp(1., -static_cast<int>(finest_level));
-  throw UserError("Membrane/Level set: '" + parameters.membrane.level_set +
-                  "' describes a membrane that touches a wall of the box, comes closer to it than one of the "
-                  "finest cells (edge " +
-                  Parameters::to_text(edge) + " at level " + std::to_string(finest_level) +
-                  ", limited by 'Mesh/Finest level' and 'Mesh/Largest number of cells'), or leaves the box. "
-                  "Enlarge the box (Domain/Lower corner, Domain/Upper corner) or make the vesicle smaller.");
+  InitialChecks<dim>(parameters).fail_level_set(
+      "describes a membrane that touches a wall of the box, comes closer to it than one of the finest cells "
+      "(edge " +
+      Parameters::to_text(edge) + " at level " + std::to_string(finest_level) +
+      ", limited by 'Mesh/Finest level' and 'Mesh/Largest number of cells'), or leaves the box. "
+      "Enlarge the box (Domain/Lower corner, Domain/Upper corner) or make the vesicle smaller.");
 }
 
 template <int dim>
@@ -136,14 +137,7 @@ void InitialMembrane<dim>::check_expressions(const std::vector<MembraneSample<di
     check_finite(*prescribed_tension, points, "Membrane/Prescribed tension");
     return;
   }
-  check_finite(*concentration, points, "Membrane/Initial concentration");
-  check_finite(*total_concentration, points, "Membrane/Initial total concentration");
-  for (const auto &p : points)
-    if (total_concentration->value(p) <= 0.)
-      throw ParameterError("Membrane/Initial total concentration",
-                           "'" + parameters.membrane.initial_total_concentration + "' is not positive at (" +
-                               coordinates(p) +
-                               ") on the membrane. Give an expression that is positive there.");
+  InitialChecks<dim>(parameters).concentrations(*concentration, *total_concentration, points);
 }
 
 template <int dim>
@@ -151,7 +145,7 @@ std::vector<MembraneSample<dim>> InitialMembrane<dim>::samples(const Point<dim> 
                                                                const CutGeometry<dim> &geometry) const
 {
   const auto patches = bare_patches(geometry, communicator);
-  const MembraneProjection<dim> membrane(patches, origin);
+  const MembraneProjection<dim> membrane = InitialChecks<dim>(parameters).project(patches, origin);
   std::vector<MembraneSample<dim>> result;
   for (const auto &s : membrane.samples())
   {
@@ -201,8 +195,13 @@ void InitialMembrane<dim>::make_level_set(const Point<dim> &origin, LevelSet<dim
   level_set.interpolate(*shape);
   geometry.reinit(level_set.get_dof_handler(), level_set.values());
   const auto patches = bare_patches(geometry, communicator);
-  level_set.set_distance(MembraneProjection<dim>(patches, origin));
+  const InitialChecks<dim> checks(parameters);
+  const MembraneProjection<dim> membrane = checks.project(patches, origin);
+  checks.membrane(*shape, membrane);
+  const double area = geometry.enclosed_volume(), arclength = geometry.measure();
+  level_set.set_distance(membrane);
   geometry.reinit(level_set.get_dof_handler(), level_set.values());
+  checks.distance(area, geometry.enclosed_volume(), arclength, geometry.measure());
 }
 
 template <int dim>

@@ -2,6 +2,7 @@
 #include <gemmule/application/vesicle_problem.h>
 #include <gemmule/parameters/all_parameters.h>
 #include <gemmule/parameters/errors.h>
+#include <gemmule/parameters/text.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -84,12 +85,12 @@ int run_on_all(const std::function<int()> &action, const MPI_Comm communicator)
   const unsigned int n_ranks = dealii::Utilities::MPI::n_mpi_processes(communicator);
   if (!all_processes_arrive(communicator))
   {
-    std::cerr << "gemmule: error: process " << rank << ": " << message << std::endl;
+    std::cerr << "gemmule: error: process " << rank << ": " << Parameters::printable(message) << std::endl;
     MPI_Abort(MPI_COMM_WORLD, code);
   }
   const unsigned int speaker = dealii::Utilities::MPI::min(message.empty() ? n_ranks : rank, communicator);
   if (rank == speaker)
-    std::cerr << "gemmule: error: " << message << std::endl;
+    std::cerr << "gemmule: error: " << Parameters::printable(message) << std::endl;
   return dealii::Utilities::MPI::max(code, communicator);
 }
 
@@ -132,9 +133,17 @@ int main(int argc, char **argv)
   if (code == finished && !done)
   {
     code = run_on_all(
-        [&] {
-          return parameters.dimension == 2 ? compute<2>(parameters, command)
-                                           : compute<3>(parameters, command);
+        [&]
+        {
+          try
+          {
+            return parameters.dimension == 2 ? compute<2>(parameters, command)
+                                             : compute<3>(parameters, command);
+          }
+          catch (const ParameterError &error)
+          {
+            throw parameters.located(error);
+          }
         },
         communicator);
     if (code == finished && command.check && speaks)

@@ -361,9 +361,9 @@ VesicleProblem<3>::VesicleProblem(const AllParameters &, const MPI_Comm communic
                                   bool)
     : communicator(communicator), stop_conditions(0., communicator)
 {
-  throw UserError("Dimension = 3 is not available yet: the parts are written for three dimensions, but the "
-                  "coupled solver "
-                  "needs an iterative flow solver first. Set Dimension = 2.");
+  throw ParameterError("Dimension",
+                       "3 is not available yet: the parts are written for three dimensions, but the coupled "
+                       "program needs an iterative flow solver first. Set Dimension = 2.");
 }
 template <>
 VesicleProblem<3>::~VesicleProblem() = default;

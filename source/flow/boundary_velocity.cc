@@ -107,12 +107,15 @@ void BoundaryVelocity<dim>::constrain(const Function<dim> &velocity, AffineConst
   flux = Utilities::MPI::sum(sums[0], communicator);
   // Every boundary dof is owned by some rank, so that all ranks see the same sums and throw together.
   if (!std::isfinite(total))
-    throw UserError(
-        "The velocity on the boundary of the box is not a finite number everywhere. Check the expression "
-        "of the imposed flow.");
+    throw ParameterError("Domain/Boundary velocity",
+                         "the velocity is not a finite number everywhere on the walls. Look for divisions by "
+                         "zero and for roots or logarithms of negative numbers.");
   if (std::abs(flux) > 0.05 * total + 1e-14)
-    throw UserError("The imposed flow pumps fluid into or out of the box (net flux " + std::to_string(flux) +
-                    "), which an incompressible fluid cannot do. Give a velocity of zero divergence.");
+    throw ParameterError(
+        "Domain/Boundary velocity",
+        "the flow at the walls pumps fluid into or out of the box (net flux " + std::to_string(flux) +
+            "), which an incompressible fluid cannot do. Give a velocity of zero divergence, "
+            "for example '0.5*y; 0'.");
 
   const double correction = flux / boundary_measure;
   for (unsigned int i = 0; i < values.size(); ++i)

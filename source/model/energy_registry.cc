@@ -4,6 +4,7 @@
 #include <gemmule/model/quartic_double_well.h>
 #include <gemmule/parameters/errors.h>
 #include <gemmule/parameters/membrane.h>
+#include <gemmule/parameters/text.h>
 
 namespace Gemmule
 {
@@ -25,11 +26,11 @@ namespace
 
   const char *parameter_name(const EnergyRegistry<DoubleWell> &)
   {
-    return "double well";
+    return "Membrane/Double well";
   }
   const char *parameter_name(const EnergyRegistry<SurfaceEnergy> &)
   {
-    return "surface energy";
+    return "Membrane/Surface energy";
   }
 } // namespace
 
@@ -54,9 +55,10 @@ std::unique_ptr<Energy> EnergyRegistry<Energy>::create(const std::string &name,
   {
     std::string known;
     for (const auto &[key, unused] : factories)
-      known += (known.empty() ? "\"" : ", \"") + key + "\"";
-    throw UserError("Membrane: there is no " + std::string(parameter_name(*this)) + " named \"" + name +
-                    "\"; choose one of " + known + ".");
+      known += (known.empty() ? "'" : ", '") + key + "'";
+    throw ParameterError(parameter_name(*this), "there is no energy of the name " +
+                                                    Parameters::in_quotes(name) +
+                                                    ". Choose one of: " + known + ".");
   }
   return factory->second(parameters);
 }

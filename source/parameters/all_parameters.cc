@@ -8,6 +8,7 @@
 #include <deal.II/base/parameter_handler.h>
 #include <deal.II/base/point.h>
 
+#include <cmath>
 #include <ostream>
 #include <sstream>
 
@@ -71,10 +72,37 @@ namespace
     make_function<dim>(p.membrane.initial_total_concentration, 1, "Membrane/Initial total concentration");
   }
 
-  /** What depends on the dimension and was not given follows it. */
-  void adapt_to_dimension(AllParameters &p, const StrictParser &parser)
+  /** The box alone must not have more cells than the mesh may have. */
+  void check_number_of_cells(const AllParameters &p)
   {
-    const auto is_default = [&](const std::string &key) { return parser.place_of("Domain/" + key).empty(); };
+    double n_cells = std::pow(2., p.dimension * static_cast<double>(p.mesh.bulk_level));
+    for (const unsigned int n : p.domain.coarse_cells())
+      n_cells *= n;
+    if (n_cells > p.mesh.largest_number_of_cells)
+      throw ParameterError("Mesh/Bulk level", "is " + std::to_string(p.mesh.bulk_level) +
+                                                  ": the box then has " + to_text(n_cells) +
+                                                  " cells, more than 'Mesh/Largest number of cells' = " +
+                                                  std::to_string(p.mesh.largest_number_of_cells) +
+                                                  ". Choose a lower level, or allow more cells.");
+  }
+
+  /** Each output is a time at which a step has to end; a slip in the interval must not ask for billions. */
+  void check_number_of_outputs(const AllParameters &p)
+  {
+    constexpr double most = 1e6;
+    for (const auto &[name, interval] : {std::pair<std::string, double>("Field", p.output.field_interval),
+                                         {"Interface", p.output.interface_interval}})
+      if (interval > 0. && p.end_time / interval > most)
+        throw ParameterError("Output/" + name + " output interval",
+                             "is " + to_text(interval) + ": more than " + to_text(most) +
+                                 " outputs until 'End time' = " + to_text(p.end_time) +
+                                 ". Choose a longer interval, or 0 for none.");
+  }
+
+  /** What depends on the dimension and was not given follows it. */
+  void adapt_to_dimension(AllParameters &p)
+  {
+    const auto is_default = [&](const std::string &key) { return p.places.count("Domain/" + key) == 0; };
     if (is_default("Lower corner"))
       p.domain.lower_corner.resize(p.dimension, p.domain.lower_corner.back());
     if (is_default("Upper corner"))
@@ -132,6 +160,8 @@ void AllParameters::check() const
     if (time > end_time)
       throw ParameterError("Output/Output times", "the time " + to_text(time) + " lies after 'End time' = " +
                                                       to_text(end_time) + ". Remove it, or compute longer.");
+  check_number_of_outputs(*this);
+  check_number_of_cells(*this);
   if (dimension == 2)
     check_expressions<2>(*this);
   else
@@ -149,19 +179,27 @@ void AllParameters::parse(const std::string &file, const std::vector<std::string
     parser.parse_file(file);
   for (const std::string &assignment : overrides)
     parser.parse_override(assignment);
-  adapt_to_dimension(result, parser);
+  result.parameter_file = file;
+  result.places = parser.places();
+  adapt_to_dimension(result);
   try
   {
     result.check();
   }
   catch (const ParameterError &error)
   {
-    std::string place = parser.place_of(error.parameter);
-    if (place.empty())
-      place = (file.empty() ? "" : file + ": ") + "default value";
-    throw UserError(place + ": " + error.what());
+    throw result.located(error);
   }
   *this = result;
+}
+
+UserError AllParameters::located(const ParameterError &error) const
+{
+  const auto place = places.find(error.parameter);
+  if (place != places.end())
+    return UserError(place->second + ": " + error.what());
+  return UserError((parameter_file.empty() ? "" : parameter_file + ": ") + error.parameter +
+                   " (default value): " + error.complaint);
 }
 
 void AllParameters::print(std::ostream &out) const

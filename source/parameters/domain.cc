@@ -11,6 +11,8 @@ namespace Gemmule::Parameters
 {
 namespace
 {
+  constexpr double smallest_edge = 1e-6, largest_edge = 1e6, largest_aspect_ratio = 1000.;
+
   template <int dim>
   dealii::Point<dim> to_point(const std::vector<double> &values)
   {
@@ -55,7 +57,21 @@ void Domain::check() const
     if (!(upper_corner[d] > lower_corner[d]))
       throw ParameterError("Domain/Upper corner",
                            "each number has to be larger than that of 'Lower corner', but " +
-                               to_text(upper_corner[d]) + " <= " + to_text(lower_corner[d]) + ".");
+                               to_text(upper_corner[d]) + " <= " + to_text(lower_corner[d]) +
+                               ". Move one of the corners.");
+  for (unsigned int d = 0; d < lower_corner.size(); ++d)
+  {
+    // Coordinates must tell the nodes of the finest cells apart, and powers of their sizes must be numbers.
+    const double edge = upper_corner[d] - lower_corner[d];
+    const double coordinate = std::max(std::abs(lower_corner[d]), std::abs(upper_corner[d]));
+    if (!(edge >= smallest_edge && edge <= largest_edge && edge >= 1e-4 * coordinate))
+      throw ParameterError("Domain/Upper corner",
+                           "edge " + std::to_string(d + 1) + " of the box is " + to_text(edge) + ", from " +
+                               to_text(lower_corner[d]) + " to " + to_text(upper_corner[d]) +
+                               ". Lengths are in units of the vesicle's: choose an edge between " +
+                               to_text(smallest_edge) + " and " + to_text(largest_edge) +
+                               " that is not tiny against the coordinates.");
+  }
   for (unsigned int d = 0; d < lower_corner.size(); ++d)
   {
     const double ratio = (upper_corner[d] - lower_corner[d]) / shortest_edge();
@@ -66,6 +82,12 @@ void Domain::check() const
           "one, but edge " +
               std::to_string(d + 1) + " is " + to_text(upper_corner[d] - lower_corner[d]) +
               " and the shortest " + to_text(shortest_edge()) + ". Move one of the corners.");
+    if (ratio > largest_aspect_ratio)
+      throw ParameterError("Domain/Upper corner", "edge " + std::to_string(d + 1) + " of the box is " +
+                                                      to_text(std::round(ratio)) +
+                                                      " times as long as the shortest one; at most " +
+                                                      to_text(largest_aspect_ratio) +
+                                                      " times is possible. Move one of the corners.");
   }
 }
 

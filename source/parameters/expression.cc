@@ -1,6 +1,7 @@
 #include <gemmule/parameters/errors.h>
 #include <gemmule/parameters/expression.h>
 #include <gemmule/parameters/section.h>
+#include <gemmule/parameters/text.h>
 
 #include <deal.II/base/function_parser.h>
 #include <deal.II/base/numbers.h>
@@ -34,8 +35,34 @@ namespace
     error.print_info(text);
     const std::string marker = "The parser said: ";
     const std::string::size_type start = text.str().find(marker);
-    return dealii::Utilities::trim(start == std::string::npos ? text.str()
-                                                              : text.str().substr(start + marker.size()));
+    std::string said = dealii::Utilities::trim(
+        start == std::string::npos ? text.str() : text.str().substr(start + marker.size()));
+    // Some of muParser's sentences have a full stop, some have none.
+    while (!said.empty() && said.back() == '.')
+      said.pop_back();
+    return Parameters::shortened(said);
+  }
+
+  /**
+   * What muParser would accept without doing what is meant: an assignment changes the coordinates, and of
+   * values separated by commas it takes the last one. Empty if there is nothing of the kind.
+   */
+  std::string pitfall(const std::string &expression)
+  {
+    int depth = 0;
+    for (std::string::size_type i = 0; i < expression.size(); ++i)
+    {
+      const char c = expression[i];
+      const char before = i > 0 ? expression[i - 1] : ' ';
+      const char after = i + 1 < expression.size() ? expression[i + 1] : ' ';
+      depth += (c == '(') - (c == ')');
+      if (c == ',' && depth <= 0)
+        return "has a comma outside of parentheses; decimals are written with a point, and components are "
+               "separated by semicolons.";
+      if (c == '=' && after != '=' && std::string("=<>!").find(before) == std::string::npos)
+        return "has an assignment '='; comparisons are written ==, <=, >= and !=.";
+    }
+    return "";
   }
 
   template <int dim>
@@ -55,7 +82,8 @@ make_function(const std::string &expression, const unsigned int n_components, co
 {
   const auto fail = [&](const std::string &reason)
   {
-    throw ParameterError(where, "the expression '" + expression + "' " + reason + example<dim>(n_components));
+    throw ParameterError(where, "the expression " + Parameters::in_quotes(expression) + " " + reason +
+                                    example<dim>(n_components));
   };
 
   // Not split_string_list(), which swallows an empty component at the end.
@@ -67,6 +95,8 @@ make_function(const std::string &expression, const unsigned int n_components, co
   for (std::string component; std::getline(components, component, ';');)
     if (dealii::Utilities::trim(component).empty())
       fail("has an empty component.");
+  if (const std::string reason = pitfall(expression); !reason.empty())
+    fail(reason);
   // Each process would draw numbers of its own, and the fields would not fit together.
   if (expression.find("rand") != std::string::npos)
     fail("uses random numbers, which differ from process to process and from run to run; use sines and "
@@ -84,7 +114,11 @@ make_function(const std::string &expression, const unsigned int n_components, co
   }
   catch (const dealii::ExceptionBase &error)
   {
-    fail("cannot be understood: " + complaint(error));
+    fail("cannot be understood: " + complaint(error) + ".");
+  }
+  catch (...) // muParser's own exceptions have no common base with others
+  {
+    fail("cannot be understood.");
   }
   return function;
 }
@@ -99,14 +133,18 @@ void check_finite(const dealii::Function<dim> &function, const std::vector<deali
       const double value = function.value(point, i);
       if (std::isfinite(value))
         continue;
-      std::string coordinates;
+      // Three digits are enough to find the point; the sign of NaN says nothing.
+      std::ostringstream text;
+      text.precision(3);
+      text << "the expression has the value " << (std::isnan(value) ? "nan" : Parameters::to_text(value))
+           << " at (";
       for (unsigned int d = 0; d < dim; ++d)
-        coordinates += (d == 0 ? "" : ", ") + Parameters::to_text(point[d]);
-      throw ParameterError(where,
-                           "the expression has the value " + Parameters::to_text(value) + " at (" +
-                               coordinates + "), t = " + Parameters::to_text(function.get_time()) +
-                               ". It has to be a finite number there; look for divisions by zero and for "
-                               "roots or logarithms of negative numbers.");
+        text << (d == 0 ? "" : ", ") << point[d];
+      text << "), t = " << function.get_time()
+           << ". It has to be a finite number there; look for divisions by zero and for roots or logarithms "
+              "of "
+              "negative numbers.";
+      throw ParameterError(where, text.str());
     }
 }
 

@@ -110,6 +110,7 @@ void Mesh::check() const
     throw ParameterError("Mesh/Composition upper bound", "is " + to_text(composition_upper) +
                                                              ", but has to be larger than 'Composition lower "
                                                              "bound' = " +
-                                                             to_text(composition_lower) + ".");
+                                                             to_text(composition_lower) +
+                                                             ". Exchange them, or leave them out.");
 }
 } // namespace Gemmule::Parameters

@@ -139,8 +139,10 @@ void Section::add(const std::string &key, double &value, const std::string &desc
 void Section::add(const std::string &key, unsigned int &value, const std::string &description,
                   const Range &range)
 {
+  // Without a bound there is still that of the machine.
   declare(
-      key, std::to_string(value), description, range.describe("an integer"),
+      key, std::to_string(value), description,
+      range.describe("an integer") + (std::isfinite(range.upper) ? "" : " and < 2^32"),
       [range](const std::string &text)
       {
         unsigned int number;

@@ -1,6 +1,7 @@
 #include <gemmule/parameters/errors.h>
 #include <gemmule/parameters/strict_parser.h>
 #include <gemmule/parameters/suggestion.h>
+#include <gemmule/parameters/text.h>
 
 #include <deal.II/base/parameter_handler.h>
 #include <deal.II/base/utilities.h>
@@ -13,6 +14,10 @@ namespace Gemmule::Parameters
 {
 namespace
 {
+  // A file with every parameter and its description has 20 kB.
+  constexpr std::uintmax_t largest_file = 10 * 1024 * 1024;
+  const std::string command_line = "command line";
+
   /** Removes blanks at both ends and makes each run of blanks in between one space. */
   std::string normalise(const std::string &text)
   {
@@ -29,6 +34,21 @@ namespace
     for (const std::string &name : names)
       result += (result.empty() ? "'" : ", '") + name + "'";
     return result;
+  }
+
+  /** The names in the text "one of: 'a', 'b'" that describes a choice; none for other texts. */
+  std::vector<std::string> choices(const std::string &allowed)
+  {
+    std::vector<std::string> names;
+    if (allowed.rfind("one of: ", 0) != 0)
+      return names;
+    for (std::string::size_type begin = allowed.find('\''); begin != std::string::npos;)
+    {
+      const std::string::size_type end = allowed.find('\'', begin + 1);
+      names.push_back(allowed.substr(begin + 1, end - begin - 1));
+      begin = end == std::string::npos ? end : allowed.find('\'', end + 1);
+    }
+    return names;
   }
 
   std::string in_section(const std::string &section)
@@ -61,6 +81,13 @@ void StrictParser::parse_file(const std::string &file)
                     "prints a file to start from.");
   if (std::filesystem::is_directory(file, ignored))
     throw UserError("'" + file + "' is a directory. Give the parameter file (*.prm) itself.");
+  // Reading some devices would never end.
+  const auto status = std::filesystem::status(file, ignored);
+  if (!std::filesystem::is_regular_file(status) && !std::filesystem::is_fifo(status))
+    throw UserError("'" + file + "' is a device. Give a parameter file (*.prm), which is plain text.");
+  if (std::filesystem::is_regular_file(status) && std::filesystem::file_size(file, ignored) > largest_file)
+    throw UserError("'" + file + "' is larger than " + std::to_string(largest_file / 1024 / 1024) +
+                    " MB and no parameter file. Give the parameter file (*.prm), which is plain text.");
   std::ifstream stream(file);
   if (!stream)
     throw UserError("the parameter file '" + file + "' cannot be read. Check its permissions.");
@@ -74,7 +101,13 @@ void StrictParser::parse_file(const std::string &file)
       line.erase(0, 3);
     if (logical_line.empty())
       first_line_number = line_number;
+    const std::string here = file + ":" + std::to_string(line_number);
+    if (line.find('\0') != std::string::npos)
+      throw UserError(here + ": the line holds a zero byte, so that this is no plain text. Save the file as "
+                             "text in UTF-8.");
     line = dealii::Utilities::trim(line.substr(0, line.find('#')));
+    if (const std::string flaw = flaw_of_text(line); !flaw.empty())
+      throw UserError(here + ": the line " + flaw + ". Remove it: parameter files are plain text in UTF-8.");
     if (!line.empty() && line.back() == '\\')
     {
       logical_line += line.substr(0, line.size() - 1) + " ";
@@ -105,7 +138,8 @@ void StrictParser::parse_line(const std::string &line, const std::string &place)
   else if (starts_with(line, "end", rest))
   {
     if (!rest.empty())
-      throw UserError(place + ": nothing may follow 'end', but there is '" + rest + "'.");
+      throw UserError(place + ": nothing may follow 'end', but there is " + in_quotes(rest) +
+                      ". Write it into a line of its own, or as a comment after '#'.");
     if (open_sections.empty())
       throw UserError(place +
                       ": this 'end' closes no section. Remove it, or look for a missing 'subsection' above.");
@@ -115,10 +149,14 @@ void StrictParser::parse_line(const std::string &line, const std::string &place)
   {
     const std::string::size_type equals = line.find('=');
     if (equals == std::string::npos)
-      throw UserError(place + ": '" + line + "' has no '='. Write 'set Name = value'.");
+      throw UserError(place + ": " + in_quotes(line) + " has no '='. Write 'set Name = value'.");
     const std::string key = normalise(line.substr(3, equals - 3));
     if (key.empty())
-      throw UserError(place + ": '" + line + "' names no parameter. Write 'set Name = value'.");
+      throw UserError(place + ": " + in_quotes(line) + " names no parameter. Write 'set Name = value'.");
+    if (key.find('/') != std::string::npos)
+      throw UserError(place + ": the name " + in_quotes(key) +
+                      " has a '/', as on the command line. In a file write 'subsection NAME', 'set Name = "
+                      "value' and 'end' on lines of their own.");
     assign(section, key, dealii::Utilities::trim(line.substr(equals + 1)), place, set_in_file);
   }
   else if (starts_with(line, "include", rest))
@@ -130,18 +168,31 @@ void StrictParser::parse_line(const std::string &line, const std::string &place)
     const std::string key = normalise(line.substr(0, line.find('=')));
     if (line.find('=') != std::string::npos && !nearest(key, schema.keys(section)).empty())
       remedy = "Is 'set' missing in front of it?";
-    throw UserError(place + ": the line '" + line + "' cannot be understood. " + remedy);
+    throw UserError(place + ": the line " + in_quotes(line) + " cannot be understood. " + remedy);
   }
 }
 
 void StrictParser::parse_override(const std::string &assignment)
 {
-  const std::string place = "command line";
+  const std::string place = command_line;
   const std::string::size_type equals = assignment.find('=');
   if (equals == std::string::npos)
-    throw UserError(place + ": --set '" + assignment +
-                    "' has no '='. Write --set \"Section/Name=value\", for example --set \"Fluid/Capillary "
+    throw UserError(place + ": --set " + in_quotes(assignment) +
+                    " has no '='. Write --set \"Section/Name=value\", for example --set \"Fluid/Capillary "
                     "number=0.5\".");
+  if (dealii::Utilities::trim(assignment.substr(0, equals)).empty())
+    throw UserError(place + ": --set " + in_quotes(assignment) +
+                    " names no parameter. Write --set \"Section/Name=value\".");
+
+  // The run writes its parameters down as a file, which has to hold the value.
+  const std::string value = dealii::Utilities::trim(assignment.substr(equals + 1));
+  std::string flaw = flaw_of_text(assignment);
+  if (flaw.empty() && value.find('#') != std::string::npos)
+    flaw = "holds a '#', which begins a comment in parameter files";
+  if (flaw.empty() && !value.empty() && value.back() == '\\')
+    flaw = "ends with a backslash, which continues a line in parameter files";
+  if (!flaw.empty())
+    throw UserError(place + ": " + in_quotes(assignment) + " " + flaw + ". Choose another value.");
 
   std::string section;
   const auto [sections, key] = Schema::split(assignment.substr(0, equals));
@@ -153,21 +204,30 @@ void StrictParser::parse_override(const std::string &assignment)
       unknown_section(section, name, place);
     section = Schema::join(section, name);
   }
-  assign(section, normalise(key), dealii::Utilities::trim(assignment.substr(equals + 1)), place,
-         set_on_command_line);
+  if (!sections.empty() && sections.back() == '/') // getline() does not see the empty name at the end
+    unknown_section(section, "", place);
+  assign(section, normalise(key), value, place, set_on_command_line);
 }
 
-std::string StrictParser::place_of(const std::string &parameter) const
+std::map<std::string, std::string> StrictParser::places() const
 {
-  for (const auto *places : {&set_on_command_line, &set_in_file})
-    if (const auto place = places->find(parameter); place != places->end())
-      return place->second;
-  return "";
+  // insert() keeps what is there: the command line has the last word.
+  std::map<std::string, std::string> result = set_on_command_line;
+  result.insert(set_in_file.begin(), set_in_file.end());
+  return result;
 }
 
 void StrictParser::enter(const std::string &name, const std::string &place)
 {
   const std::string section = open_sections.empty() ? "" : open_sections.back().path;
+  if (name.empty())
+    throw UserError(place +
+                    ": this 'subsection' has no name. Write 'subsection NAME', for example 'subsection "
+                    "Fluid'.");
+  if (name.find('/') != std::string::npos)
+    throw UserError(place + ": the name " + in_quotes(name) +
+                    " has a '/', as on the command line. In a file write a line 'subsection NAME' and an "
+                    "'end' for each part.");
   if (!schema.has_section(Schema::join(section, name)))
     unknown_section(section, name, place);
   open_sections.push_back({Schema::join(section, name), place});
@@ -181,7 +241,10 @@ void StrictParser::assign(const std::string &section, const std::string &key, co
   if (entry == schema.entries().end())
     unknown_key(section, key, place);
   if (const auto earlier = already_set.find(path); earlier != already_set.end())
-    throw UserError(place + ": the parameter '" + path + "' is given twice, first at " + earlier->second +
+    throw UserError(place + ": the parameter '" + path + "' is given twice" +
+                    (place != command_line        ? ", first at " + earlier->second
+                     : path == "Output directory" ? " (--output sets it, too)"
+                                                  : "") +
                     ". Remove one of them.");
 
   unsigned int depth = 0;
@@ -200,8 +263,12 @@ void StrictParser::assign(const std::string &section, const std::string &key, co
   for (; depth > 0; --depth)
     prm.leave_subsection();
   if (!allowed)
-    throw UserError(place + ": the value '" + value + "' of the parameter '" + path +
-                    "' is not allowed; expected " + entry->second.allowed + ".");
+  {
+    const std::string similar = nearest(value, choices(entry->second.allowed));
+    throw UserError(place + ": the value " + in_quotes(value) + " of the parameter '" + path +
+                    "' is not allowed; expected " + entry->second.allowed + "." +
+                    (similar.empty() ? "" : " Did you mean '" + similar + "'?"));
+  }
   already_set[path] = place;
 }
 
@@ -216,9 +283,13 @@ void StrictParser::unknown_key(const std::string &section, const std::string &ke
     remedy = "Did you mean '" + similar + "' (" +
              schema.entries().at(Schema::join(section, similar)).allowed + ")?";
   else if (!holders.empty())
-    remedy = "There is one " + in_section(holders.front()) + "; is a 'subsection' or an 'end' missing?";
+    remedy = "There is one " + in_section(holders.front()) +
+             (place == command_line ? ": write '" + Schema::join(holders.front(), key) + "=...'."
+                                    : "; is a 'subsection' or an 'end' missing?");
   else if (schema.has_section(Schema::join(section, key)))
-    remedy = "This is the name of a section.";
+    remedy = "This is the name of a section: write " +
+             (place == command_line ? "'" + Schema::join(section, key) + "/NAME=value'."
+                                    : "'subsection " + key + "' and its parameters, then 'end'.");
   else
   {
     // A typo in a parameter that belongs elsewhere.
@@ -233,7 +304,8 @@ void StrictParser::unknown_key(const std::string &section, const std::string &ke
       remedy = keys.empty() ? "There are only sections here: " + list(schema.subsections(section)) + "."
                             : "The parameters here are " + list(keys) + ".";
   }
-  throw UserError(place + ": there is no parameter '" + key + "' " + in_section(section) + ". " + remedy);
+  throw UserError(place + ": there is no parameter " + in_quotes(key) + " " + in_section(section) + ". " +
+                  remedy);
 }
 
 void StrictParser::unknown_section(const std::string &section, const std::string &name,
@@ -249,10 +321,11 @@ void StrictParser::unknown_section(const std::string &section, const std::string
     remedy = "There is one " + in_section(holders.front()) +
              "; is an 'end' missing for the section that starts at " + open_sections.back().place + "?";
   else if (!holders.empty())
-    remedy = "There is one " + in_section(holders.front()) + ".";
+    remedy = "There is one " + in_section(holders.front()) + ": open that section first.";
   else
     remedy =
         sections.empty() ? "There are no sections here." : "The sections here are " + list(sections) + ".";
-  throw UserError(place + ": there is no section '" + name + "' " + in_section(section) + ". " + remedy);
+  throw UserError(place + ": there is no section " + in_quotes(name) + " " + in_section(section) + ". " +
+                  remedy);
 }
 } // namespace Gemmule::Parameters

@@ -32,6 +32,10 @@ std::string nearest(const std::string &word, const std::vector<std::string> &can
   unsigned int best_distance = std::max<unsigned int>(2, word.size() / 3) + 1;
   for (const std::string &candidate : candidates)
   {
+    // The distance is at least the difference of the lengths: no table for words that cannot match.
+    const std::size_t longer = std::max(word.size(), candidate.size());
+    if (longer - std::min(word.size(), candidate.size()) >= best_distance || longer > 200)
+      continue;
     const unsigned int distance = edit_distance(word, candidate);
     if (distance < best_distance && distance < std::max(word.size(), candidate.size()))
     {

@@ -1,96 +1,12 @@
-// Wrong command lines, and those that are right but do not compute.
+// Command lines that are right but do not compute, messages of parallel runs, permissions, and what happens
+// to the results of earlier runs. The messages about wrong command lines are in command_lines.txt.
 #include "bad_input_fixture.h"
 
 namespace Gemmule::Testing
 {
-using BadCommandLine = BadInput;
+using CommandLine = BadInput;
 
-TEST_F(BadCommandLine, NoArguments)
-{
-  expect_error("", {"no parameter file is given", "gemmule CASE.prm", "--help"});
-}
-
-TEST_F(BadCommandLine, MissingFile)
-{
-  expect_error("absent.prm", {"the parameter file 'absent.prm' does not exist", "--print-parameters"});
-}
-
-TEST_F(BadCommandLine, DirectoryAsFile)
-{
-  std::filesystem::create_directory(directory.path / "folder");
-  expect_error("folder", {"'folder' is a directory"});
-}
-
-TEST_F(BadCommandLine, UnreadableFile)
-{
-  if (geteuid() == 0)
-    GTEST_SKIP() << "root can read every file";
-  std::filesystem::permissions(directory.write("secret.prm", ""), std::filesystem::perms::none);
-  expect_error("secret.prm", {"'secret.prm' cannot be read", "permissions"});
-}
-
-TEST_F(BadCommandLine, UnknownOptionSuggestsTheNearest)
-{
-  directory.write("case.prm", "");
-  expect_error("case.prm --chekc", {"unknown option '--chekc'", "Did you mean '--check'?"});
-  expect_error("case.prm --verbose=3", {"unknown option '--verbose=3'", "--help"});
-}
-
-TEST_F(BadCommandLine, TwoFiles)
-{
-  expect_error("one.prm two.prm", {"more than one parameter file: 'one.prm' and 'two.prm'"});
-}
-
-TEST_F(BadCommandLine, OptionsWithoutValue)
-{
-  directory.write("case.prm", "");
-  expect_error("case.prm --set", {"the option --set lacks its value"});
-  expect_error("case.prm --output", {"the option --output lacks its value"});
-  expect_error("case.prm --output ''", {"--output needs the name of a directory"});
-}
-
-TEST_F(BadCommandLine, SetWithoutEqualsSign)
-{
-  directory.write("case.prm", "");
-  expect_error("case.prm --check --set 'End time 3'", {"command line: --set 'End time 3' has no '='"});
-}
-
-TEST_F(BadCommandLine, SetUnknownNames)
-{
-  directory.write("case.prm", "");
-  expect_error(
-      "case.prm --check --set 'Fluid/Viscosity ration=1'",
-      {"command line: there is no parameter 'Viscosity ration' in section 'Fluid'", "'Viscosity ratio'"});
-  expect_error("case.prm --check --set 'Membran/Cahn number=1'",
-               {"command line: there is no section 'Membran' at the top level", "Did you mean 'Membrane'?"});
-  expect_error("case.prm --check --set '=1'", {"command line: there is no parameter ''"});
-  expect_error("case.prm --check --set 'Fluid=1'", {"'Fluid' at the top level", "name of a section"});
-}
-
-TEST_F(BadCommandLine, SetWrongValues)
-{
-  directory.write("case.prm", "");
-  expect_error("case.prm --check --set 'Fluid/Viscosity ratio=low'",
-               {"command line: the value 'low' of the parameter 'Fluid/Viscosity ratio'", "a number > 0"});
-  expect_error("case.prm --check --set 'Membrane/Level set=x+'",
-               {"command line: Membrane/Level set", "'x+'"});
-  expect_error("case.prm --check --set 'End time=1' --set 'End time=2'",
-               {"command line: the parameter 'End time' is given twice"});
-  expect_error("case.prm --check --output a --set 'Output directory=b'",
-               {"'Output directory' is given twice"});
-}
-
-TEST_F(BadCommandLine, MessageAppearsOnceOnTwoProcesses)
-{
-  directory.write("case.prm", "set End tim = 1\n");
-  const Result result = run_gemmule(directory, "case.prm --check", 2);
-  EXPECT_EQ(result.exit_code, 1);
-  const std::string message = "gemmule: error: case.prm:1: there is no parameter 'End tim'";
-  EXPECT_NE(result.err.find(message), std::string::npos) << result.err;
-  EXPECT_EQ(result.err.find(message), result.err.rfind(message)) << result.err;
-}
-
-TEST_F(BadCommandLine, HelpExplains)
+TEST_F(CommandLine, HelpExplains)
 {
   const Result result = run_gemmule(directory, "--help");
   EXPECT_EQ(result.exit_code, 0);
@@ -100,7 +16,7 @@ TEST_F(BadCommandLine, HelpExplains)
     EXPECT_NE(result.out.find(part), std::string::npos) << part;
 }
 
-TEST_F(BadCommandLine, VersionNamesTheLibraries)
+TEST_F(CommandLine, VersionNamesTheLibraries)
 {
   const Result result = run_gemmule(directory, "--version");
   EXPECT_EQ(result.exit_code, 0);
@@ -108,7 +24,7 @@ TEST_F(BadCommandLine, VersionNamesTheLibraries)
     EXPECT_NE(result.out.find(part), std::string::npos) << result.out;
 }
 
-TEST_F(BadCommandLine, PrintedParametersAreAValidCase)
+TEST_F(CommandLine, PrintedParametersAreAValidCase)
 {
   const Result defaults = run_gemmule(directory, "--print-parameters");
   ASSERT_EQ(defaults.exit_code, 0) << defaults.err;
@@ -122,5 +38,119 @@ TEST_F(BadCommandLine, PrintedParametersAreAValidCase)
       run_gemmule(directory, "case.prm --print-parameters --output there --set 'Fluid/Viscosity ratio=0.1'");
   EXPECT_NE(changed.out.find("set Output directory = there"), std::string::npos) << changed.out;
   EXPECT_NE(changed.out.find("set Viscosity ratio  = 0.1"), std::string::npos) << changed.out;
+}
+
+TEST_F(CommandLine, CheckAcceptsAndWritesNothing)
+{
+  directory.write("case.prm", "subsection Mesh\nset Membrane level = 4\nset Phase boundary level = 4\nend\n");
+  const auto before = listing();
+  const Result result = run_gemmule(directory, "case.prm --check");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(result.out, "case.prm: the parameters are valid.\n");
+  EXPECT_EQ(result.err, "");
+  EXPECT_EQ(listing(), before);
+}
+
+TEST_F(CommandLine, CheckFindsTheSameMistakesAsARun)
+{
+  directory.write("case.prm", "subsection Membrane\nset Level set = (x-0.8)^2+y^2-0.25\nend\n");
+  EXPECT_EQ(message_of("case.prm --check"), message_of("case.prm"));
+}
+
+class BadInputOnTwoProcesses : public BadInput
+{
+protected:
+  void expect_one_message(const std::string &content, const std::string &message)
+  {
+    directory.write("case.prm", content);
+    const Result result = run_gemmule(directory, "case.prm --check", 2);
+    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_NE(result.err.find("gemmule: error: " + message), std::string::npos) << result.err;
+    EXPECT_EQ(result.err.find("gemmule: error: "), result.err.rfind("gemmule: error: ")) << result.err;
+    EXPECT_EQ(result.err.find("TimerOutput"), std::string::npos) << result.err;
+  }
+};
+
+TEST_F(BadInputOnTwoProcesses, AllFindTheSameMistake)
+{
+  expect_one_message("set End tim = 1\n", "case.prm:1: there is no parameter 'End tim'");
+  expect_one_message("subsection Membrane\nset Initial concentration = sqrt(x)\nend\n",
+                     "case.prm:2: Membrane/Initial concentration: the expression has the value");
+}
+
+TEST_F(BadInputOnTwoProcesses, OneFindsAMistake)
+{
+  // not finite in one corner of the box
+  expect_one_message("subsection Membrane\nset Level set = x^2+y^2-0.25+0*sqrt(1.93-x-y)\nend\n",
+                     "case.prm:2: Membrane/Level set: the expression has the value");
+}
+
+/** Runs the program as a user without rights, since root may read and write everything. */
+class BadPermissions : public BadInput
+{
+protected:
+  void SetUp() override
+  {
+    if (geteuid() == 0)
+      prefix = "setpriv --reuid=65534 --regid=65534 --clear-groups ";
+    std::filesystem::permissions(directory.path, std::filesystem::perms::all);
+    const Result result = run_gemmule(directory, "--version", 1, prefix);
+    if (result.exit_code != 0)
+      GTEST_SKIP() << "this user cannot run the program as one without rights:\n" << result.err;
+  }
+
+  void expect_message(const std::string &arguments, const std::string &message)
+  {
+    const Result result = run_gemmule(directory, arguments, 1, prefix);
+    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_EQ(result.out, "");
+    EXPECT_EQ(result.err, "gemmule: error: " + message + "\n");
+  }
+
+  std::string prefix;
+};
+
+TEST_F(BadPermissions, UnreadableFile)
+{
+  std::filesystem::permissions(directory.write("secret.prm", ""), std::filesystem::perms::none);
+  expect_message("secret.prm", "the parameter file 'secret.prm' cannot be read. Check its permissions.");
+}
+
+TEST_F(BadPermissions, UnwritableDirectory)
+{
+  directory.write("case.prm", "subsection Mesh\nset Membrane level = 4\nset Phase boundary level = 4\nend\n");
+  const auto readable = std::filesystem::perms::owner_read | std::filesystem::perms::owner_exec |
+                        std::filesystem::perms::others_read | std::filesystem::perms::others_exec;
+  std::filesystem::create_directory(directory.path / "locked");
+  std::filesystem::permissions(directory.path / "locked", readable);
+  expect_message(
+      "case.prm --output locked",
+      "Cannot write to the output directory 'locked': free some space or change its permissions, or "
+      "choose another one with --output or the parameter 'Output directory'.");
+  expect_message(
+      "case.prm --output locked/below",
+      "Cannot create the output directory 'locked/below' (Permission denied): choose another one with "
+      "--output or the parameter 'Output directory'.");
+  EXPECT_TRUE(std::filesystem::is_empty(directory.path / "locked"));
+}
+
+using EarlierResults = BadInput;
+
+TEST_F(EarlierResults, SurviveAMistake)
+{
+  std::filesystem::create_directory(directory.path / "results");
+  const std::initializer_list<std::string> names = {"statistics.csv", "log.txt",           "parameters.prm",
+                                                    "interface.h5",   "solution-00000.h5", "solution.xdmf"};
+  for (const auto &name : names)
+    directory.write("results/" + name, "earlier " + name);
+  directory.write("case.prm", "set Output directory = results\n");
+  for (const char *wrong : {"End tim=1", "Mesh/Membrane level=9", "Membrane/Level set=1+x^2",
+                            "Membrane/Level set=(x-0.8)^2+y^2-0.25", "Membrane/Initial total concentration=x",
+                            "Membrane/Double well=unknown", "Domain/Boundary velocity=x; y"})
+  {
+    message_of(std::string("case.prm --set '") + wrong + "'");
+    for (const auto &name : names)
+      EXPECT_EQ(directory.read("results/" + name), "earlier " + name) << wrong;
+  }
 }
 } // namespace Gemmule::Testing

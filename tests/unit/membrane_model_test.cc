@@ -68,8 +68,8 @@ TEST(MembraneEnergy, UnknownNameListsTheKnownOnes)
   catch (const UserError &error)
   {
     const std::string message = error.what();
-    EXPECT_NE(message.find("\"exponental\""), std::string::npos) << message;
-    EXPECT_NE(message.find("\"exponential\""), std::string::npos) << message;
+    EXPECT_NE(message.find("'exponental'"), std::string::npos) << message;
+    EXPECT_NE(message.find("'exponential'"), std::string::npos) << message;
   }
 }
 

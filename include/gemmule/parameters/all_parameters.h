@@ -3,6 +3,7 @@
 #include <gemmule/parameters/checkpoint.h>
 #include <gemmule/parameters/discretisation.h>
 #include <gemmule/parameters/domain.h>
+#include <gemmule/parameters/errors.h>
 #include <gemmule/parameters/fluid.h>
 #include <gemmule/parameters/membrane.h>
 #include <gemmule/parameters/mesh.h>
@@ -42,6 +43,11 @@ struct AllParameters
   Output output;
   Checkpoint checkpoint;
 
+  /** The file that parse() has read; empty without one. */
+  std::string parameter_file;
+  /** Where each parameter that parse() has found was set, by full name: "case.prm:12" or "command line". */
+  std::map<std::string, std::string> places;
+
   /** Declares every parameter, with the present values as defaults. */
   void add_parameters(dealii::ParameterHandler &prm);
 
@@ -60,6 +66,9 @@ struct AllParameters
    * @throws UserError with file and line (or "command line") in its message
    */
   void parse(const std::string &file, const std::vector<std::string> &overrides = {});
+
+  /** The error with the place where its parameter was set, for the user. */
+  UserError located(const ParameterError &error) const;
 
   /** Writes every parameter, with description and default, in the syntax that parse() reads. */
   void print(std::ostream &out) const;

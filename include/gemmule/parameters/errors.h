@@ -37,11 +37,13 @@ public:
    * @param complaint what is wrong and what to do; the message is "<parameter>: <complaint>"
    */
   ParameterError(const std::string &parameter, const std::string &complaint)
-      : UserError(parameter + ": " + complaint), parameter(parameter)
+      : UserError(parameter + ": " + complaint), parameter(parameter), complaint(complaint)
   {
   }
 
   /** Full name of the parameter. */
   const std::string parameter;
+  /** The message without the name. */
+  const std::string complaint;
 };
 } // namespace Gemmule

@@ -30,8 +30,8 @@ public:
    */
   void parse_override(const std::string &assignment);
 
-  /** Where a parameter was set: "case.prm:12", "command line", or empty if it has its default. */
-  std::string place_of(const std::string &parameter) const;
+  /** Where the parameters were set, by full name: "case.prm:12" or "command line". */
+  std::map<std::string, std::string> places() const;
 
 private:
   struct OpenSection

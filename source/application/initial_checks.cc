@@ -1,0 +1,222 @@
+#include <gemmule/application/initial_checks.h>
+#include <gemmule/parameters/errors.h>
+#include <gemmule/parameters/expression.h>
+#include <gemmule/parameters/section.h>
+#include <gemmule/parameters/text.h>
+
+#include <cmath>
+#include <map>
+#include <sstream>
+
+namespace Gemmule
+{
+using namespace dealii;
+
+namespace
+{
+  // At a zero of the interpolated level set the expression may have this part of its largest value in the
+  // cell. Interpolation errors are far smaller, jumps and poles far larger.
+  constexpr double largest_remainder = 0.3;
+  // Sheets of opposite normals that are closer than this part of a cell are taken for a contact.
+  constexpr double smallest_gap = 0.5;
+  // A shape loses more than this of its area or arclength in a distance function if the mesh is too coarse
+  // for it.
+  constexpr double largest_loss = 0.05;
+  // Expressions that end at zero or one may overshoot by round-off.
+  constexpr double composition_tolerance = 1e-8;
+
+  std::string short_number(const double x)
+  {
+    std::ostringstream text;
+    text.precision(3);
+    text << x;
+    return text.str();
+  }
+
+  template <int dim>
+  std::string coordinates(const Point<dim> &p)
+  {
+    std::string text;
+    for (unsigned int d = 0; d < dim; ++d)
+      text += (d == 0 ? "(" : ", ") + short_number(p[d]);
+    return text + ")";
+  }
+
+  /** Throws on all ranks if one of them has a complaint, that of the lowest such rank. Collective. */
+  void raise_together(const std::string &parameter, const std::string &complaint, const MPI_Comm communicator)
+  {
+    const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(communicator);
+    const unsigned int rank = Utilities::MPI::this_mpi_process(communicator);
+    const unsigned int speaker = Utilities::MPI::min(complaint.empty() ? n_ranks : rank, communicator);
+    if (speaker < n_ranks)
+      throw ParameterError(parameter, Utilities::MPI::broadcast(communicator, complaint, speaker));
+  }
+
+  /** A point where two sheets of opposite normals nearly meet, if there is one. */
+  template <int dim>
+  const Point<dim> *find_contact(const MembraneProjection<dim> &membrane)
+  {
+    const auto &samples = membrane.samples();
+    const auto &patches = membrane.get_patches();
+    double size = 0.;
+    for (const auto &patch : patches)
+      size = std::max(size, patch.size);
+    using Key = std::array<long, dim>;
+    const auto key = [&](const Point<dim> &p)
+    {
+      Key k;
+      for (unsigned int d = 0; d < dim; ++d)
+        k[d] = std::lround(std::floor(p[d] / size));
+      return k;
+    };
+    std::map<Key, std::vector<unsigned int>> bins;
+    for (unsigned int i = 0; i < samples.size(); ++i)
+      bins[key(samples[i].point)].push_back(i);
+
+    constexpr unsigned int n_neighbours = dim == 2 ? 9 : 27;
+    for (const auto &sample : samples)
+      for (unsigned int neighbour = 0; neighbour < n_neighbours; ++neighbour)
+      {
+        Key k = key(sample.point);
+        for (unsigned int d = 0, rest = neighbour; d < dim; ++d, rest /= 3)
+          k[d] += static_cast<long>(rest % 3) - 1;
+        const auto bin = bins.find(k);
+        if (bin == bins.end())
+          continue;
+        for (const unsigned int other : bin->second)
+          if (sample.normal * samples[other].normal < -0.5 &&
+              sample.point.distance(samples[other].point) <
+                  smallest_gap * std::min(patches[sample.patch].size, patches[samples[other].patch].size))
+            return &sample.point;
+      }
+    return nullptr;
+  }
+} // namespace
+
+template <int dim>
+void InitialChecks<dim>::fail_level_set(const std::string &complaint) const
+{
+  throw ParameterError("Membrane/Level set",
+                       Parameters::in_quotes(parameters.membrane.level_set) + " " + complaint);
+}
+
+template <int dim>
+void InitialChecks<dim>::number_of_cells(const std::size_t n_cells, const unsigned int level) const
+{
+  const auto &mesh = parameters.mesh;
+  if (n_cells > mesh.largest_number_of_cells)
+    throw ParameterError("Mesh/Membrane level", "is " + std::to_string(mesh.membrane_level) +
+                                                    ": already at level " + std::to_string(level) +
+                                                    " the mesh has " + std::to_string(n_cells) +
+                                                    " cells, more than 'Mesh/Largest number of cells' = " +
+                                                    std::to_string(mesh.largest_number_of_cells) +
+                                                    ". Choose a lower level, or allow more cells.");
+}
+
+template <int dim>
+void InitialChecks<dim>::level_set(const unsigned int n_crossed, const unsigned int n_negative,
+                                   const std::string &not_finite, const MPI_Comm communicator) const
+{
+  raise_together("Membrane/Level set", not_finite, communicator);
+  if (Utilities::MPI::sum(n_crossed, communicator) == 0)
+    fail_level_set(std::string("has no zero in the box: it is ") +
+                   (Utilities::MPI::sum(n_negative, communicator) > 0 ? "negative" : "positive") +
+                   " everywhere. Give a function that is negative inside the vesicle and positive outside, "
+                   "for example x^2+2*y^2-0.25, or a finer 'Mesh/Bulk level' if the vesicle is tiny.");
+}
+
+template <int dim>
+MembraneProjection<dim> InitialChecks<dim>::project(const std::vector<MembranePatch<dim>> &patches,
+                                                    const Point<dim> &origin) const
+{
+  try
+  {
+    return MembraneProjection<dim>(patches, origin);
+  }
+  catch (const SimulationError &)
+  {
+    fail_level_set(
+        "has no membrane on the mesh: either its gradient vanishes where it is zero, or what it "
+        "describes is smaller than a cell. Give a function that passes through zero with a slope, "
+        "for example x^2+2*y^2-0.25 and not (x^2+2*y^2-0.25)^3, or a finer 'Mesh/Membrane level'.");
+  }
+}
+
+template <int dim>
+void InitialChecks<dim>::membrane(const Function<dim> &expression,
+                                  const MembraneProjection<dim> &membrane) const
+{
+  const auto &patches = membrane.get_patches();
+  for (const auto &sample : membrane.samples())
+  {
+    double largest = 0.;
+    for (const double value : patches[sample.patch].level_set)
+      largest = std::max(largest, std::abs(value));
+    const double value = expression.value(sample.point);
+    if (!(std::abs(value) <= largest_remainder * largest))
+      fail_level_set("changes its sign without passing through zero near " + coordinates(sample.point) +
+                     ": it has the value " + short_number(value) +
+                     " there. Give a continuous function without jumps and poles, for example "
+                     "x^2+2*y^2-0.25, or a finer 'Mesh/Membrane level' if the shape has fine details.");
+  }
+  if (const Point<dim> *const point = find_contact(membrane))
+    fail_level_set("describes a membrane that touches or crosses itself, or comes closer to itself than half "
+                   "a cell, near " +
+                   coordinates(*point) +
+                   ". Give a shape of one or several closed curves that stay apart, or a finer "
+                   "'Mesh/Membrane level'.");
+}
+
+template <int dim>
+void InitialChecks<dim>::distance(const double area, const double new_area, const double arclength,
+                                  const double new_arclength) const
+{
+  const double loss = std::max(std::abs(new_area / area - 1.), std::abs(new_arclength / arclength - 1.));
+  if (!(loss <= largest_loss))
+    fail_level_set(
+        "describes a shape that the mesh does not resolve: making the level set a distance changes its "
+        "area or its arclength by more than 5 %. Choose a finer 'Mesh/Membrane level', a shape without "
+        "corners and fine details, and a function that passes through zero with a slope.");
+}
+
+template <int dim>
+void InitialChecks<dim>::concentrations(const Function<dim> &concentration,
+                                        const Function<dim> &total_concentration,
+                                        const std::vector<Point<dim>> &points) const
+{
+  const std::string f = "Membrane/Initial concentration", total = "Membrane/Initial total concentration";
+  check_finite(concentration, points, f);
+  check_finite(total_concentration, points, total);
+  for (const Point<dim> &p : points)
+  {
+    const double sum = total_concentration.value(p);
+    if (sum <= 0.)
+      throw ParameterError(total, Parameters::in_quotes(parameters.membrane.initial_total_concentration) +
+                                      " is not positive at " + coordinates(p) +
+                                      " on the membrane. Give an expression that is positive there.");
+    const double composition = concentration.value(p) / sum;
+    if (!(composition >= -composition_tolerance && composition <= 1. + composition_tolerance))
+      throw ParameterError(f, Parameters::in_quotes(parameters.membrane.initial_concentration) +
+                                  " makes the composition (concentration / total concentration) " +
+                                  short_number(composition) + " at " + coordinates(p) +
+                                  " on the membrane. Give an expression between 0 and 'Initial total "
+                                  "concentration'.");
+  }
+}
+
+template <int dim>
+void InitialChecks<dim>::flow(const double largest_velocity) const
+{
+  if (std::isfinite(largest_velocity))
+    return;
+  const auto &p = parameters;
+  throw UserError("the initial flow has no finite velocity: a parameter is too large or too small to compute "
+                  "with. Look at Fluid/Capillary number = " +
+                  Parameters::to_text(p.fluid.capillary_number) +
+                  ", Fluid/Viscosity ratio = " + Parameters::to_text(p.fluid.viscosity_ratio) +
+                  ", the tension (Membrane) and the penalties (Flow discretisation, Arclength constraint).");
+}
+
+template class InitialChecks<2>;
+template class InitialChecks<3>;
+} // namespace Gemmule
