@@ -25,9 +25,9 @@ namespace
 
 StepControl::StepControl(const Parameters::TimeStepping &parameters, const double start_time,
                          std::vector<double> stops_)
-    : parameters(parameters), now(start_time), stops(std::move(stops_)),
-      n_halvings(largest_number_of_halvings)
+    : parameters(parameters), stops(std::move(stops_)), n_halvings(largest_number_of_halvings)
 {
+  now = start_time;
   Assert(!stops.empty(), dealii::ExcMessage("There must be an end."));
   std::sort(stops.begin(), stops.end());
   while (parameters.adaptive && n_halvings > 0 &&

@@ -283,7 +283,7 @@ TEST(ParallelMeshAdaptation, TheLimitLowersOnlyAsFarAsItMust)
 
   // What a restart needs.
   AdaptiveBox<2> restarted(parameters);
-  restarted.adaptation.restore_lowered_levels(limited.adaptation.lowered_levels());
+  restarted.adaptation.set_lowered_levels(limited.adaptation.lowered_levels());
   restarted.adaptation.adapt(samples);
   EXPECT_EQ(restarted.n_cells(), limited.n_cells());
 }

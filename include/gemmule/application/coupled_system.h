@@ -1,5 +1,6 @@
 #pragma once
 
+#include <gemmule/application/coupled_state.h>
 #include <gemmule/application/step_errors.h>
 #include <gemmule/flow/stokes_solver.h>
 #include <gemmule/geometry/cut_geometry.h>
@@ -38,6 +39,15 @@ public:
    * Throws UserError when there is no membrane in the box, or it touches the wall.
    */
   void initialise();
+
+  /** What is needed to continue from the current (accepted) state. Collective. */
+  CoupledState<dim> state() const;
+
+  /**
+   * Instead of initialise(): continues from state() of a run with the same parameters, on any number of
+   * ranks. Throws SimulationError when that is impossible. Collective.
+   */
+  void restore(const CoupledState<dim> &state);
 
   /**
    * Computes the state at time() + dt. Throws SimulationError when that is impossible; accept() or another
@@ -92,15 +102,17 @@ private:
   void cut_mesh(bool keep_area);
 
   void check_wall() const;
+  /** Curvature for the bending energy at the quadrature points of the cut mesh; nullptr without bending. */
+  const MembranePointValues *compute_curvature();
   /** Throws SimulationError if some cut cell is coarser than "Membrane level". */
   void check_refined_band() const;
   /** Samples the error of the last flow for the criteria that need it. */
   void sample_flow();
-  /** Curvature for the bending energy at the quadrature points of the cut mesh; nullptr without bending. */
-  const MembranePointValues *compute_curvature();
   /** @param old_velocity of the same material points one step ago; nullptr at the start */
   void solve_flow(double time, double dt, const CutCellVector<dim> *old_velocity);
   double compute_capillary_time_step() const;
+  /** Level set and cut mesh of the current membrane after @p motion, with the area of the beginning. */
+  void move_level_set(const MembraneMotion<dim> &motion);
   bool has_arclength_multiplier() const;
   /** The arclength that a multiplier gives the membrane in the next step. */
   double next_arclength() const;

@@ -53,7 +53,8 @@ public:
   /** Levels that the limit on the number of cells has taken away so far: with the mesh, all that there is to
    * save. */
   unsigned int lowered_levels() const { return n_lowered_levels; }
-  void restore_lowered_levels(const unsigned int n) { n_lowered_levels = n; }
+  /** Continues an earlier run, in which the limit had taken away @p n levels. */
+  void set_lowered_levels(const unsigned int n) { n_lowered_levels = n; }
 
 private:
   using Key = std::array<int, dim>;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <gemmule/parameters/checkpoint.h>
 #include <gemmule/parameters/discretisation.h>
 #include <gemmule/parameters/domain.h>
 #include <gemmule/parameters/fluid.h>
@@ -9,6 +10,7 @@
 #include <gemmule/parameters/time_stepping.h>
 
 #include <iosfwd>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -38,6 +40,7 @@ struct AllParameters
   Surface surface;
   TimeStepping time_stepping;
   Output output;
+  Checkpoint checkpoint;
 
   /** Declares every parameter, with the present values as defaults. */
   void add_parameters(dealii::ParameterHandler &prm);
@@ -60,6 +63,9 @@ struct AllParameters
 
   /** Writes every parameter, with description and default, in the syntax that parse() reads. */
   void print(std::ostream &out) const;
+
+  /** The value of every parameter as text, by its full name ("Section/Subsection/Key"). */
+  std::map<std::string, std::string> values() const;
 };
 } // namespace Gemmule::Parameters
 
