@@ -30,8 +30,17 @@ if ((${NP:-1} > 1)); then
   launcher=(mpirun -n "$NP")
   ((EUID != 0)) || export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
 fi
-status=0
-"${launcher[@]}" "$gemmule" "$case_file" "$@" || status=$?
+# mpirun answers Ctrl-C and SIGTERM by killing its processes a second later, which is too soon to save the
+# state. SIGUSR1 it passes on. In a session of its own the terminal's Ctrl-C comes here only.
+setsid "${launcher[@]}" "$gemmule" "$case_file" "$@" &
+run=$!
+trap 'kill -USR1 "$run"' INT TERM HUP USR1
+while true; do
+  status=0
+  wait "$run" || status=$?
+  kill -0 "$run" 2>/dev/null || break # otherwise it was a signal that ended the waiting
+done
+trap - INT TERM HUP USR1
 # 2 and 3: failed or stopped on the way; what has been computed is worth a picture.
 ((status == 0 || status == 2 || status == 3)) || exit "$status"
 

@@ -11,23 +11,32 @@ from postprocess.results import Results, ResultsError
 SAME_TIME = 1e-9
 
 
-class Run:
-    """One run of a case: a value of the varied parameter, and where its results are."""
+def varied(executable, case, settings, key, value, end_time, directory):
+    """The run with one parameter set to a value."""
+    name = f"{key.split('/')[-1]}={value}"
+    return Run(executable, case, [*settings, f"{key}={value}"], f"{key} = {value}", name, end_time, directory)
 
-    def __init__(self, executable, case, settings, key, value, end_time, directory):
-        self.key, self.value, self.end_time = key, value, end_time
-        self.directory = Path(directory) / re.sub(r"[^A-Za-z0-9.+-]+", "_", f"{key.split('/')[-1]}={value}")
-        # The later setting wins: the varied parameter, and the end that the comparison needs.
-        settings = [*settings, f"{key}={value}", f"End time={end_time!r}"]
+
+class Run:
+    """One run of a case: what is set, what it is called in messages and as a directory, where its results are."""
+
+    def __init__(self, executable, case, settings, title, name, end_time, directory):
+        self.title, self.end_time = title, end_time
+        self.directory = Path(directory) / re.sub(r"[^A-Za-z0-9.+-]+", "_", name)
+        # The later setting wins, also the end that the comparison needs; the program takes each only once.
+        chosen = {}
+        for setting in [*settings, f"End time={end_time!r}"]:
+            key, _, value = setting.partition("=")
+            chosen[key.strip()] = value
         self.command = [str(executable), str(case)]
-        for setting in settings:
-            self.command += ["--set", setting]
+        for key, value in chosen.items():
+            self.command += ["--set", f"{key}={value}"]
         self.command += ["--output", str(self.directory)]
 
     def is_finished(self):
         """Do results with just these parameters exist, up to the end?"""
         parameters = self.directory / "parameters.prm"
-        if not parameters.is_file() or entries(parameters.read_text()) != entries(self._output("--print-parameters")):
+        if not parameters.is_file() or entries(parameters.read_text()) != self.parameters():
             return False
         try:
             results = Results(self.directory)
@@ -35,6 +44,10 @@ class Run:
         except (ResultsError, OSError):
             return False
         return all(abs(time - self.end_time) <= SAME_TIME * max(1.0, self.end_time) for time in last_times)
+
+    def parameters(self):
+        """All parameters of the run, section/key -> value, as the program understands them."""
+        return entries(self._output("--print-parameters"))
 
     def start(self):
         """Compute it, on one core; the output of the program goes to run.log."""
@@ -47,7 +60,7 @@ class Run:
         if finished.returncode != 0:
             tail = (self.directory / "run.log").read_text().strip().splitlines()[-3:]
             raise ResultsError(
-                f"the run with {self.key} = {self.value} ended with code {finished.returncode}: "
+                f"the run with {self.title} ended with code {finished.returncode}: "
                 + " / ".join(tail)
                 + f" (all of it: {self.directory / 'run.log'})"
             )
@@ -55,9 +68,9 @@ class Run:
     def complete(self, fresh=False):
         """Compute it unless that has been done, or again if `fresh`."""
         if not fresh and self.is_finished():
-            print(f"{self.key} = {self.value}: using {self.directory}", file=sys.stderr, flush=True)
+            print(f"{self.title}: using {self.directory}", file=sys.stderr, flush=True)
             return
-        print(f"{self.key} = {self.value}: computing", file=sys.stderr, flush=True)
+        print(f"{self.title}: computing", file=sys.stderr, flush=True)
         self.start()
 
     def _output(self, option):

@@ -27,7 +27,8 @@ def parser():
         "--times",
         type=parse_times,
         metavar="T,T,...",
-        help="times of the snapshots; the nearest outputs are taken (default: up to 8, evenly spread)",
+        help="times of the snapshots and of the mesh; the nearest outputs are taken (default: up to 8 snapshots, evenly "
+        "spread, and the last mesh)",
     )
     return result
 
@@ -62,6 +63,6 @@ def draw(options):
     else:
         print(f"note: no {results.interface_path}, so no snapshots.png", file=sys.stderr)
     if results.solution_times():
-        yield style.save(mesh.figure(results), folder / "mesh.png")
+        yield style.save(mesh.figure(results, options.times), folder / "mesh.png")
     else:
         print("note: no solution-NNNNN.h5 in the results, so no mesh.png", file=sys.stderr)

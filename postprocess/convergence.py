@@ -13,8 +13,9 @@ try:
     import numpy as np
     import pandas as pd
 
-    from postprocess.case_runs import SAME_TIME, Run
+    from postprocess.case_runs import SAME_TIME, varied
     from postprocess.curves import closed_curves
+    from postprocess.necks import narrowest_neck
     from postprocess.observed_order import orders
     from postprocess.results import Results, ResultsError
 except ModuleNotFoundError as error:
@@ -23,10 +24,24 @@ except ModuleNotFoundError as error:
         "the program, with a Python that has numpy, h5py, matplotlib and pandas (Debian: /usr/bin/python3)."
     )
 
-SCALARS = ("centroid_x", "arclength", "energy_total")
+COLUMNS = ("centroid_x", "centroid_y", "arclength", "energy_total", "curvature_max")
+NECK = ("neck_width", "bud_area")
+SCALARS = (*COLUMNS, *NECK)
 FIELDS = ("f", "f_total")
 QUANTITIES = (*SCALARS, "position", *FIELDS)
-COSTS = ("cells", "flow_dofs", "surface_dofs", "steps", "wall_time")
+COSTS = ("cells", "flow_dofs", "surface_dofs", "steps", "wall_time", "cpu_time")
+LABELS = {
+    "centroid_x": "centroid $x$",
+    "centroid_y": "centroid $y$",
+    "arclength": "arclength",
+    "energy_total": "energy",
+    "curvature_max": "largest curvature",
+    "neck_width": "neck width",
+    "bud_area": "bud area",
+    "position": "position",
+    "f": "$f$",
+    "f_total": r"$\bar f$",
+}
 MEASURES = {"value": lambda x: x, "level": lambda x: 2.0**-x, "inverse": lambda x: 1.0 / x}
 
 
@@ -41,9 +56,10 @@ class State:
         for found in (row.time, interface.time):
             if abs(found - time) > SAME_TIME * max(1.0, abs(time)):
                 raise ResultsError(f"'{directory}' has no results at t = {time:g}; the nearest are at {found:g}")
-        self.scalars = {name: float(row[name]) for name in SCALARS}
-        self.costs = {name: row.get(name, np.nan) for name in COSTS if name != "steps"}
+        self.scalars = {name: float(row.get(name, np.nan)) for name in COLUMNS}
+        self.costs = {name: row.get(name, np.nan) for name in COSTS}
         self.costs["steps"] = row.get("step", np.nan)
+        self.costs["cpu_time"] = results.cpu_time()
         self.points = interface.points
         if self.points.shape[1] != 2:
             raise ResultsError(f"'{directory}' is three-dimensional: membranes are compared in two dimensions only")
@@ -51,6 +67,9 @@ class State:
             self.curves = closed_curves(interface.points, interface.segments, results.interface_values(time, FIELDS))
         except ValueError as error:
             raise ResultsError(f"'{directory}' at t = {time:g}: {error}")
+        neck = narrowest_neck(self.curves)
+        self.scalars["neck_width"] = neck.width if neck else np.nan
+        self.scalars["bud_area"] = neck.bud_area if neck else np.nan
 
 
 def difference(one, other, quantity):
@@ -67,8 +86,12 @@ def difference(one, other, quantity):
     )
 
 
-def compare(values, sizes, states):
-    """The table: one row per run, the last one the finest."""
+def compare(values, sizes, states, reference=None):
+    """
+    The table: one row per run, the last one the finest. Differences are those to the reference, by default the
+    finest run; the reference itself has none. Orders come from each run and its two neighbours alone.
+    """
+    reference = reference or states[-1]
     table = pd.DataFrame({"value": values, "size": sizes})
     for name in COSTS:
         table[name] = [state.costs[name] for state in states]
@@ -76,24 +99,26 @@ def compare(values, sizes, states):
         table[name] = [state.scalars[name] for state in states]
     for name in QUANTITIES:
         successive = [difference(*pair, name) for pair in zip(states, states[1:])]
-        to_finest = [difference(state, states[-1], name) for state in states[:-2]]
-        table[f"{name}_difference"] = [*to_finest, successive[-1], np.nan]
+        table[f"{name}_difference"] = [
+            np.nan if state is reference else difference(state, reference, name) for state in states
+        ]
         table[f"{name}_successive"] = [*successive, np.nan]
         table[f"{name}_order"] = orders(np.asarray(sizes), successive)
     return table
 
 
-def markdown(table, key, time):
+def markdown(table, key, time, reference="the last run"):
     """What a reader wants to see of the table."""
 
     def number(value, form):
         return "-" if not np.isfinite(value) else format(value, form)
 
-    header = [key, "cells", "unknowns", "steps", "wall time/s"]
-    for name in QUANTITIES:
+    shown = [name for name in QUANTITIES if np.any(table[f"{name}_difference"] > 0)]
+    header = [key, "cells", "unknowns", "steps", "CPU time/s"]
+    for name in shown:
         header += [name, "order"]
     lines = [
-        f"Differences to the last run at t = {time:g}; orders from each run and its two neighbours.",
+        f"Differences to {reference} at t = {time:g}; orders from each run and its two neighbours.",
         "",
         "| " + " | ".join(header) + " |",
         "|" + "---:|" * len(header),
@@ -101,8 +126,8 @@ def markdown(table, key, time):
     for _, row in table.iterrows():
         unknowns = row.flow_dofs + row.surface_dofs
         cells = [str(row.value), *(number(x, ".0f") for x in (row.cells, unknowns, row.steps))]
-        cells.append(number(row.wall_time, ".3g"))
-        for name in QUANTITIES:
+        cells.append(number(row.cpu_time if np.isfinite(row.cpu_time) else row.wall_time, ".3g"))
+        for name in shown:
             cells += [number(row[f"{name}_difference"], ".2e"), number(row[f"{name}_order"], ".2f")]
         lines.append("| " + " | ".join(cells) + " |")
     return "\n".join(lines) + "\n"
@@ -116,12 +141,13 @@ def figure(table, key, time, measure):
     style.apply()
     result, axis = plt.subplots(figsize=(5.2, 4.2), layout="constrained")
     sizes = table["size"].to_numpy()[:-1]
-    labels = ("centroid", "arclength", "energy", "position", "$f$", r"$\bar f$")
     largest = []
-    for name, label, marker in zip(QUANTITIES, labels, "os^Dvx"):
+    for name, marker in zip(QUANTITIES, "os^Dvx+*<>"):
         values = table[f"{name}_difference"].to_numpy()[:-1]
         if np.any(values > 0):
-            axis.loglog(sizes, np.where(values > 0, values, np.nan), marker=marker, markersize=4, label=label)
+            axis.loglog(
+                sizes, np.where(values > 0, values, np.nan), marker=marker, markersize=4, label=LABELS[name]
+            )
             largest.append(np.nanmax(values))
     if largest and len(sizes) > 1:
         for order in (2, 3):
@@ -179,7 +205,7 @@ def study(options):
             raise ResultsError(f"there is no file '{path}'")
     program = options.executable.resolve()
     runs = [
-        Run(program, options.case, options.set, options.parameter, value, options.time, options.output)
+        varied(program, options.case, options.set, options.parameter, value, options.time, options.output)
         for value in options.values
     ]
     with ThreadPoolExecutor(max(1, options.jobs)) as pool:

@@ -31,7 +31,8 @@ Parameters outside all sections come first. A heading such as `Membrane/Arclengt
       end
     end
 
-which on the command line is `--set "Membrane/Arclength constraint/Model=penalty"`. Everything is dimensionless.
+which on the command line is `--set "Membrane/Arclength constraint/Model=penalty"`. Everything is dimensionless
+but the times of section `Checkpoint`.
 Expressions are those of muParser, with the coordinates `x`, `y` (and `z` in 3D) as variables and, where the
 description says so, the time `t`.
 """

@@ -1,5 +1,6 @@
 """Reading the files of a run. Nothing here draws."""
 
+import re
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -58,6 +59,12 @@ class Results:
         if table.empty:
             raise ResultsError(f"{path} has no rows yet: no time step has been finished")
         return table
+
+    def cpu_time(self):
+        """CPU seconds of a finished run, from its log; nan if it has not finished."""
+        path = self.directory / "log.txt"
+        found = re.findall(r"([0-9.e+-]+) s CPU \(", path.read_text()) if path.is_file() else []
+        return float(found[-1]) if found else float("nan")
 
     def has_interface(self):
         return self.interface_path.is_file()

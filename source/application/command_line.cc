@@ -1,10 +1,8 @@
 #include <gemmule/application/command_line.h>
+#include <gemmule/output/provenance.h>
 #include <gemmule/parameters/errors.h>
 #include <gemmule/parameters/suggestion.h>
 #include <gemmule/parameters/text.h>
-#include <gemmule/version.h>
-
-#include <deal.II/base/config.h>
 
 #include <CLI/CLI.hpp>
 #include <sstream>
@@ -29,8 +27,8 @@ namespace
 Exit codes:
   0  finished
   1  something is wrong with the command or the parameters; the message says what
-  2  the simulation failed; its state was saved
-  3  stopped by a signal; its state was saved, --resume continues it)";
+  2  the simulation failed, or the disk is full; the last state was saved if possible
+  3  stopped by a signal or its time limit; its state was saved, --resume continues it)";
 
   std::string quoted(const std::string &argument)
   {
@@ -64,13 +62,7 @@ Exit codes:
 
 std::string version_text()
 {
-  std::ostringstream text;
-  text << "Gemmule " << GEMMULE_VERSION << " (revision " << GEMMULE_GIT_REVISION << ")\n"
-       << "deal.II " << DEAL_II_PACKAGE_VERSION << ", Trilinos " << DEAL_II_TRILINOS_VERSION_MAJOR << '.'
-       << DEAL_II_TRILINOS_VERSION_MINOR << '.' << DEAL_II_TRILINOS_VERSION_SUBMINOR << ", p4est "
-       << DEAL_II_P4EST_VERSION_MAJOR << '.' << DEAL_II_P4EST_VERSION_MINOR << '.'
-       << DEAL_II_P4EST_VERSION_SUBMINOR << '\n';
-  return text.str();
+  return "Gemmule " + program_version() + "\n" + library_versions() + "\n";
 }
 
 CommandLine CommandLine::parse(const int argc, const char *const *argv)

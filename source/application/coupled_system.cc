@@ -1,7 +1,9 @@
+#include <gemmule/algebra/gather.h>
 #include <gemmule/application/coupled_system.h>
 #include <gemmule/application/initial_checks.h>
 #include <gemmule/application/initial_membrane.h>
 #include <gemmule/application/wall_cells.h>
+#include <gemmule/geometry/cloud_refinement.h>
 #include <gemmule/geometry/membrane_transport.h>
 #include <gemmule/mesh/box_mesh.h>
 #include <gemmule/parameters/errors.h>
@@ -25,11 +27,23 @@ namespace
   // A step that is wrong by more than this part of the area has lost the membrane, and is no case for a
   // correction.
   constexpr double largest_area_error = 0.05;
-  // The level set feels the shortest waves of the velocity more than their trace on the membrane tells; with
-  // the bare stiffness and S = 0.4 they grow once dt is a hundred times the limit of the explicit coupling.
-  constexpr double bending_stiffness_margin = 2.5;
+  // S = 0.4 of the bare stiffness is enough for constant steps in the linear model. Steps that alternate by a
+  // factor of two need about 1.8, and the level set feels the shortest waves more than their trace tells.
+  constexpr double bending_stiffness_margin = 5.;
+  // A multiplier keeps the arclength to this part of it.
+  constexpr double arclength_tolerance = 1e-7;
   // A given reference arclength is approached by at most this part of it per step.
   constexpr double largest_arclength_change = 1e-3;
+  // Mesh and flow at the start depend on each other when the flow's error is a criterion.
+  constexpr unsigned int largest_number_of_initial_meshes = 6;
+
+  /** 10-90 % width of the equilibrium profile (1 + tanh(s / (2 sqrt(2) C))) / 2; 0 without phases. */
+  double phase_boundary_width(const Parameters::Membrane &membrane)
+  {
+    return membrane.tension_model == Parameters::TensionModel::phase_field
+               ? 4. * std::sqrt(2.) * std::atanh(0.8) * membrane.cahn_number
+               : 0.;
+  }
 
   /** Q2 nodal values as Q3 nodal values of the same polynomial. */
   template <int dim, typename T>
@@ -71,7 +85,10 @@ namespace
 template <int dim>
 CoupledSystem<dim>::CoupledSystem(const AllParameters &parameters_, const MPI_Comm communicator_)
     : parameters(parameters_), communicator(communicator_),
-      triangulation(communicator, dealii::Triangulation<dim>::MeshSmoothing::none),
+      // Rebuilt after each change, the order of the cells does not depend on the history of the mesh: a
+      // resumed run sums in the same order as one that was never interrupted.
+      triangulation(communicator, dealii::Triangulation<dim>::MeshSmoothing::none,
+                    Triangulation::mesh_reconstruction_after_repartitioning),
       origin(
           [this]
           {
@@ -85,7 +102,8 @@ CoupledSystem<dim>::CoupledSystem(const AllParameters &parameters_, const MPI_Co
       prescribed_tension(
           make_function<dim>(parameters.membrane.prescribed_tension, 1, "Membrane/Prescribed tension")),
       model(parameters.membrane, parameters.regularisation, parameters.bending), level_set(triangulation),
-      flow(triangulation, parameters.fluid, parameters.flow), adaptation(triangulation, parameters.mesh)
+      flow(triangulation, parameters.fluid, parameters.flow),
+      adaptation(triangulation, parameters.mesh, phase_boundary_width(parameters.membrane))
 {
   if (parameters.membrane.tension_model == Parameters::TensionModel::phase_field)
     surface = std::make_unique<SurfaceSolver<dim>>(triangulation, model, parameters.surface);
@@ -109,19 +127,24 @@ void CoupledSystem<dim>::reinit_mesh()
 template <int dim>
 void CoupledSystem<dim>::initialise()
 {
+  const InitialMembrane<dim> initial(parameters, communicator);
+  initial.make_mesh(triangulation, level_set, geometry, adaptation);
+  for (unsigned int i = 1;; ++i)
   {
-    const InitialMembrane<dim> initial(parameters, communicator);
-    initial.make_mesh(triangulation, level_set, geometry, adaptation);
     reinit_mesh();
     initial.make_level_set(origin, level_set, geometry);
     const MembranePointValues *const curvature = compute_curvature();
     if (surface)
       initial.make_phases(level_set, geometry, *surface, curvature);
+    area_0 = geometry.enclosed_volume();
+    arclength_0 = parameters.arclength.reference_arclength > 0. ? parameters.arclength.reference_arclength
+                                                                : geometry.measure();
+    solve_flow(0., parameters.time_stepping.initial_step, nullptr);
+    sample_flow();
+    if (flow_samples.empty() || i == largest_number_of_initial_meshes ||
+        !initial.make_mesh(triangulation, level_set, geometry, adaptation, flow_samples))
+      break;
   }
-  area_0 = geometry.enclosed_volume();
-  arclength_0 = parameters.arclength.reference_arclength > 0. ? parameters.arclength.reference_arclength
-                                                              : geometry.measure();
-  solve_flow(0., parameters.time_stepping.initial_step, nullptr);
 
   std::vector<TransportedFields<dim>> at_rest(geometry.cut_cells().size());
   for (unsigned int c = 0; c < at_rest.size(); ++c)
@@ -140,6 +163,44 @@ void CoupledSystem<dim>::check_wall() const
 }
 
 template <int dim>
+void CoupledSystem<dim>::check_refined_band() const
+{
+  const double allowed =
+      parameters.domain.shortest_edge() *
+      std::ldexp(1. + 1e-10, -static_cast<int>(adaptation.limited(parameters.mesh.membrane_level)));
+  double largest = 0.;
+  for (const auto &cell : geometry.cut_cells())
+    largest = std::max(largest, cell.size);
+  if (Utilities::MPI::max(largest, communicator) > allowed)
+    throw SimulationError("The membrane has left the refined cells around it: the step is too long.");
+}
+
+template <int dim>
+void CoupledSystem<dim>::sample_flow()
+{
+  flow_samples.clear();
+  if (!adaptation.needs_cell_samples())
+    return;
+  TimerOutput::Scope scope(timer_output, "flow: error estimate");
+  const FlowErrorEstimate estimate = flow.estimate_error();
+  // A flow at rest has no error that would be worth a finer mesh.
+  const double norm = std::max(std::sqrt(estimate.norm_square), 1e-12);
+  std::vector<CellSample<dim>> own;
+  unsigned int k = 0; // the estimate has the owned cells in the order of the mesh
+  for (const auto &cell : triangulation.active_cell_iterators())
+    if (cell->is_locally_owned())
+    {
+      CellSample<dim> sample{};
+      for (unsigned int d = 0; d < dim; ++d)
+        sample.center[d] = cell->center()[d];
+      sample.level = cell->level();
+      sample.error = std::sqrt(estimate.squares[k++]) / norm;
+      own.push_back(sample);
+    }
+  flow_samples = gather_plain(own, communicator);
+}
+
+template <int dim>
 std::vector<MembraneSample<dim>> CoupledSystem<dim>::samples(const MembraneProjection<dim> &membrane,
                                                              const MembraneMotion<dim> *motion) const
 {
@@ -155,6 +216,7 @@ std::vector<MembraneSample<dim>> CoupledSystem<dim>::samples(const MembraneProje
     p.converged = true;
     MembraneSample<dim> sample;
     sample.point = s.point;
+    sample.normal = s.normal;
     sample.curvature = membrane.curvature(s);
     if (surface)
       sample.composition =
@@ -180,12 +242,18 @@ void CoupledSystem<dim>::adapt_mesh(const MembraneProjection<dim> &membrane,
     ++steps_since_remeshing;
     if (steps_since_remeshing >= parameters.mesh.remeshing_interval || adaptation.is_too_coarse(wanted, 1))
     {
-      changed = adaptation.adapt(wanted);
+      changed = adaptation.adapt(wanted, flow_samples);
       steps_since_remeshing = 0;
     }
   }
   if (changed)
+  {
+    ++n_mesh_changes;
+    n_steps_on_mesh = 0;
     reinit_mesh();
+    refine_cloud(current, triangulation);
+    refine_cloud(previous, triangulation);
+  }
 }
 
 template <int dim>
@@ -194,6 +262,7 @@ void CoupledSystem<dim>::cut_mesh(const bool keep_area)
   TimerOutput::Scope scope(timer_output, "geometry: cut cells");
   geometry.reinit(level_set.get_dof_handler(), level_set.values());
   check_wall();
+  check_refined_band();
   last_area_correction = 0.;
   // Newton's method: a shift by s changes the area by -s L.
   for (unsigned int i = 0; keep_area && i < 3; ++i)
@@ -260,8 +329,8 @@ void CoupledSystem<dim>::solve_flow(const double time, const double dt,
       dilatational_modulus[c].push_back(
           model.dilatational_modulus(TensorLagrange<dim, 2>::value(surface->total_concentration()[c], q)));
   const SemiImplicitTension<dim> semi_implicit{parameters.time_stepping.tension_implicitness * dt,
-                                               &stiff_tension,
-                                               surface ? &dilatational_modulus : nullptr, old_velocity};
+                                               &stiff_tension, surface ? &dilatational_modulus : nullptr,
+                                               old_velocity};
   SemiImplicitBending<dim> semi_implicit_bending;
   if (bending)
   {
@@ -291,6 +360,17 @@ void CoupledSystem<dim>::solve_flow(const double time, const double dt,
   }
   else
     flow.solve(total_tension, nullptr, bending_force.get());
+}
+
+template <int dim>
+void CoupledSystem<dim>::move_level_set(const MembraneMotion<dim> &motion)
+{
+  {
+    TimerOutput::Scope scope(timer_output, "geometry: level set");
+    level_set.advance(motion, BandLevelSet<dim>(current.band, origin),
+                      motion.old_membrane().distance_drift() > largest_distance_drift);
+  }
+  cut_mesh(true);
 }
 
 template <int dim>
@@ -352,17 +432,33 @@ StepErrors CoupledSystem<dim>::try_step(const double dt)
       first ? BdfCoefficients::first_order() : BdfCoefficients::second_order(dt / dt_previous);
   const MembraneProjection<dim> membrane(current.patches, origin);
   MembraneMotion<dim> motion(membrane, dt, dt_previous);
-  if (has_arclength_multiplier())
-    motion.fit_measure(current.cloud, next_arclength(), area_0);
   dt_trial = dt;
 
-  adapt_mesh(membrane, &motion);
+  if (has_arclength_multiplier())
   {
-    TimerOutput::Scope scope(timer_output, "geometry: level set");
-    level_set.advance(motion, BandLevelSet<dim>(current.band, origin),
-                      membrane.distance_drift() > largest_distance_drift);
+    const double target = next_arclength();
+    double aim = target;
+    bool fits = motion.fit_measure(current.cloud, aim, area_0) == 0.;
+    adapt_mesh(membrane, &motion);
+    move_level_set(motion);
+    // The length is predicted up to the error of the level set; where that is too large, aim differently.
+    for (unsigned int i = 0; i < 3 && !fits; ++i)
+    {
+      const double excess = geometry.measure() - target;
+      fits = std::abs(excess) < arclength_tolerance * arclength_0;
+      if (!fits)
+      {
+        aim -= excess;
+        motion.fit_measure(current.cloud, aim, area_0);
+        move_level_set(motion);
+      }
+    }
   }
-  cut_mesh(true);
+  else
+  {
+    adapt_mesh(membrane, &motion);
+    move_level_set(motion);
+  }
   const MembranePointValues *const curvature = compute_curvature();
 
   std::vector<TransportedFields<dim>> transported;
@@ -423,11 +519,13 @@ StepErrors CoupledSystem<dim>::try_step(const double dt)
 template <int dim>
 void CoupledSystem<dim>::accept()
 {
+  ++n_steps_on_mesh;
   dt_preceding = dt_previous;
   dt_previous = dt_trial;
   previous = std::move(current);
   current = std::move(trial);
   current_capillary_step = trial_capillary_step;
+  sample_flow();
 }
 
 template <int dim>

@@ -5,6 +5,7 @@
 #include <gemmule/mesh/box_mesh.h>
 #include <gemmule/parameters/errors.h>
 #include <gemmule/parameters/expression.h>
+#include <gemmule/parameters/section.h>
 
 #include <cmath>
 
@@ -98,20 +99,31 @@ void InitialMembrane<dim>::find(Triangulation &triangulation) const
 }
 
 template <int dim>
-void InitialMembrane<dim>::check_wall(const Triangulation &triangulation,
+void InitialMembrane<dim>::check_sign(const Triangulation &triangulation,
                                       const CutGeometry<dim> &geometry) const
 {
   const WallCells count = count_wall_cells(triangulation, geometry, communicator);
-  const InitialChecks<dim> checks(parameters);
   if (count.inside == count.all)
-    checks.fail_level_set(
-        "is negative along all walls of the box, but has to be positive outside the vesicle. "
-        "Change its sign: -(" +
-        parameters.membrane.level_set + ").");
-  if (count.not_outside > 0)
-    checks.fail_level_set(
-        "describes a membrane that touches a wall of the box, comes closer to it than one cell, or leaves "
-        "the box. Enlarge the box (Domain/Lower corner, Domain/Upper corner) or make the vesicle smaller.");
+    InitialChecks<dim>(parameters)
+        .fail_level_set("is negative along all walls of the box, but has to be positive outside the vesicle. "
+                        "Change its sign: -(" +
+                        parameters.membrane.level_set + ").");
+}
+
+template <int dim>
+void InitialMembrane<dim>::check_wall(const Triangulation &triangulation, const CutGeometry<dim> &geometry,
+                                      const unsigned int finest_level) const
+{
+  if (count_wall_cells(triangulation, geometry, communicator).not_outside == 0)
+    return;
+  const double edge = parameters.domain.shortest_edge() * std::ldexp(1., -static_cast<int>(finest_level));
+  InitialChecks<dim>(parameters)
+      .fail_level_set(
+          "describes a membrane that touches a wall of the box, comes closer to it than one of the "
+          "finest cells (edge " +
+          Parameters::to_text(edge) + " at level " + std::to_string(finest_level) +
+          ", limited by 'Mesh/Finest level' and 'Mesh/Largest number of cells'), or leaves the box. "
+          "Enlarge the box (Domain/Lower corner, Domain/Upper corner) or make the vesicle smaller.");
 }
 
 template <int dim>
@@ -139,6 +151,7 @@ std::vector<MembraneSample<dim>> InitialMembrane<dim>::samples(const Point<dim> 
   {
     MembraneSample<dim> sample;
     sample.point = s.point;
+    sample.normal = s.normal;
     sample.curvature = membrane.curvature(s);
     if (concentration)
       sample.composition = concentration->value(s.point) / total_concentration->value(s.point);
@@ -148,21 +161,31 @@ std::vector<MembraneSample<dim>> InitialMembrane<dim>::samples(const Point<dim> 
 }
 
 template <int dim>
-void InitialMembrane<dim>::make_mesh(Triangulation &triangulation, LevelSet<dim> &level_set,
-                                     CutGeometry<dim> &geometry, MeshAdaptation<dim> &adaptation) const
+bool InitialMembrane<dim>::make_mesh(Triangulation &triangulation, LevelSet<dim> &level_set,
+                                     CutGeometry<dim> &geometry, MeshAdaptation<dim> &adaptation,
+                                     const std::vector<CellSample<dim>> &cells) const
 {
-  find(triangulation);
-  for (unsigned int sweep = 0; sweep < largest_number_of_sweeps; ++sweep)
+  const auto cut_mesh = [&]
   {
     level_set.reinit_mesh();
     level_set.interpolate(*shape);
     geometry.reinit(level_set.get_dof_handler(), level_set.values());
-    check_wall(triangulation, geometry);
+  };
+  find(triangulation);
+  cut_mesh();
+  bool changed = false;
+  for (unsigned int sweep = 0; sweep < largest_number_of_sweeps; ++sweep)
+  {
+    check_sign(triangulation, geometry);
     const auto membrane = samples(lower_corner<dim>(parameters.domain), geometry);
     check_expressions(membrane);
-    if (!adaptation.adapt(membrane))
+    if (!adaptation.adapt(membrane, cells))
       break;
+    changed = true;
+    cut_mesh();
   }
+  check_wall(triangulation, geometry, adaptation.limited(parameters.mesh.largest_level()));
+  return changed;
 }
 
 template <int dim>

@@ -201,7 +201,8 @@ StatisticsRow make_statistics(const CoupledSystem<dim> &system, const InterfaceS
   }
   else
     for (unsigned int i = 0; i < membrane.points.size(); ++i)
-      row.energy_surface += membrane.tension[i] * membrane.weights[i];
+      // the tension of the arclength constraint has its own energy, or none
+      row.energy_surface += (membrane.tension[i] - flow.constraint_tension()) * membrane.weights[i];
   const auto &arclength = system.get_parameters().arclength;
   if (arclength.model == Parameters::ArclengthModel::penalty)
     row.energy_constraint =

@@ -1,12 +1,14 @@
+#include <gemmule/application/checkpoints.h>
 #include <gemmule/application/coupled_system.h>
 #include <gemmule/application/reporting.h>
 #include <gemmule/application/vesicle_problem.h>
 #include <gemmule/output/output_directory.h>
 #include <gemmule/parameters/errors.h>
 #include <gemmule/time/step_control.h>
-#include <gemmule/version.h>
 
 #include <cmath>
+#include <limits>
+#include <optional>
 #include <sstream>
 
 namespace Gemmule
@@ -24,6 +26,8 @@ namespace
            std::any_of(times.begin(), times.end(), same);
   }
 
+  constexpr int exit_code_stopped = 3;
+
   std::string rounded(const double x)
   {
     std::ostringstream text;
@@ -36,24 +40,73 @@ namespace
 template <int dim>
 VesicleProblem<dim>::VesicleProblem(const AllParameters &parameters_, const MPI_Comm communicator_,
                                     const std::string &command_line_, const bool resume)
-    : parameters(parameters_), communicator(communicator_), command_line(command_line_)
+    : parameters(parameters_), communicator(communicator_), command_line(command_line_),
+      stop_conditions(parameters.checkpoint.wall_time_limit, communicator),
+      provenance(command_line, parameters.values())
 {
+  checkpoints = std::make_unique<Checkpoints<dim>>(parameters, communicator);
+  membrane = std::make_unique<InterfaceSamples<dim>>();
+  std::vector<std::string> notes;
+  std::optional<RunState<dim>> resumed;
   if (resume)
-    throw UserError(
-        "--resume: checkpoints are not available in this version. Start the run anew without it.");
+    resumed = checkpoints->load(notes);
+
   // The case first: a mistake in it must not cost the results of an earlier run.
   system = std::make_unique<CoupledSystem<dim>>(parameters, communicator);
-  system->initialise();
+  if (resumed)
+    system->restore(resumed->system);
+  else
+    system->initialise();
 
-  directory = std::make_unique<OutputDirectory>(parameters.output_directory, communicator);
-  log = std::make_unique<RunLog>(directory->path(), communicator);
+  control = std::make_unique<StepControl>(parameters.time_stepping, 0., stops());
+  open_output(resumed ? &*resumed : nullptr);
+  if (resumed)
+    continue_from(*resumed, notes);
+}
+
+template <int dim>
+void VesicleProblem<dim>::open_output(const RunState<dim> *resumed)
+{
+  const double resume_after_time =
+      resumed != nullptr ? resumed->row.time : -std::numeric_limits<double>::infinity();
+  directory =
+      std::make_unique<OutputDirectory>(parameters.output_directory, communicator, resumed != nullptr);
+  if (resumed != nullptr)
+    checkpoints->restore_results();
+  log = std::make_unique<RunLog>(directory->path(), communicator, resumed != nullptr);
   std::ostringstream values;
   parameters.print(values);
   directory->write_parameters(values.str());
-  statistics = std::make_unique<StatisticsWriter>(directory->path(), communicator);
-  interface_writer = std::make_unique<InterfaceWriter<dim>>(directory->path(), communicator, command_line);
-  field_writer = std::make_unique<FieldWriter<dim>>(directory->path(), communicator);
-  membrane = std::make_unique<InterfaceSamples<dim>>();
+  statistics = std::make_unique<StatisticsWriter>(directory->path(), communicator, resume_after_time);
+  interface_writer =
+      std::make_unique<InterfaceWriter<dim>>(directory->path(), communicator, provenance, resume_after_time);
+  field_writer =
+      std::make_unique<FieldWriter<dim>>(directory->path(), communicator, provenance, resume_after_time);
+}
+
+template <int dim>
+void VesicleProblem<dim>::continue_from(RunState<dim> &state, const std::vector<std::string> &notes)
+{
+  is_resumed = true;
+  control->restore(state.step_control);
+  row = state.row;
+  *membrane = std::move(state.membrane);
+  membrane_is_written = state.membrane_is_written;
+  n_rejected = state.n_rejected;
+  earlier_wall_time = state.wall_time;
+
+  for (const std::string &note : notes)
+    log->warn(note);
+  // What is known on rank 0 only is compared there only; the other ranks' log is silent.
+  const auto compare = [&](const std::string &what, const std::size_t present, const std::size_t written)
+  {
+    if (Utilities::MPI::this_mpi_process(communicator) == 0 && present != written)
+      log->warn(what + " has " + std::to_string(present) + " of the " + std::to_string(written) +
+                " entries that had been written up to the checkpoint; the rest is missing.");
+  };
+  compare("statistics.csv", statistics->n_rows(), row.step + 1);
+  compare("interface.h5", interface_writer->n_groups(), state.n_interface_groups);
+  compare("solution.xdmf", field_writer->n_files(), state.n_field_files);
 }
 
 template <int dim>
@@ -82,13 +135,20 @@ template <int dim>
 void VesicleProblem<dim>::announce() const
 {
   const auto &mesh = system->mesh();
-  log->info(std::string("Gemmule ") + GEMMULE_VERSION + " (" + GEMMULE_GIT_REVISION + "), " +
+  log->info("Gemmule " + program_version() + ", " +
             std::to_string(Utilities::MPI::n_mpi_processes(communicator)) + " process(es): " + command_line);
-  log->info("results in " + directory->path() + "; " + std::to_string(mesh.n_global_active_cells()) +
-            " cells, " + std::to_string(system->get_flow().n_unknowns()) + " unknowns of the flow" +
-            (system->get_surface() != nullptr
-                 ? ", " + std::to_string(system->get_surface()->n_unknowns()) + " of the phases"
-                 : ""));
+  for (const auto &[name, value] : provenance.entries())
+    log->record(name + (value.find('\n') == std::string::npos ? ": " : ":\n") + value);
+  const std::string cells = std::to_string(mesh.n_global_active_cells()) + " cells";
+  if (is_resumed)
+    log->info("resumed at t = " + rounded(row.time) + " after " + std::to_string(row.step) +
+              " steps; results in " + directory->path() + "; " + cells);
+  else
+    log->info("results in " + directory->path() + "; " + cells + ", " +
+              std::to_string(system->get_flow().n_unknowns()) + " unknowns of the flow" +
+              (system->get_surface() != nullptr
+                   ? ", " + std::to_string(system->get_surface()->n_unknowns()) + " of the phases"
+                   : ""));
   if (system->get_surface() != nullptr)
     if (const auto warning = system->get_model().ill_posedness_warning())
       log->warn(*warning);
@@ -98,23 +158,42 @@ template <int dim>
 int VesicleProblem<dim>::run()
 {
   announce();
-  report();
-  write_output_if_due(false);
-
-  StepControl control(parameters.time_stepping, 0., stops());
-  while (!control.finished())
+  if (!is_resumed)
   {
+    report();
+    write_output_if_due(false);
+  }
+
+  while (!control->finished())
+  {
+    if (const std::string reason = stop_conditions.reason_to_stop(); !reason.empty())
+    {
+      const std::string path = write_checkpoint();
+      log->info("stopped by " + reason + " at t = " + rounded(row.time) + " after " +
+                std::to_string(row.step) + " steps; the state is saved in " + path +
+                ", and --resume continues from it.");
+      return exit_code_stopped;
+    }
     try
     {
-      make_step(control);
+      make_step();
     }
     catch (const SimulationError &error)
     {
       save_last_state(error.what());
       throw;
     }
+    catch (const std::exception &error)
+    {
+      // Of what kind it may be, with several ranks it need not have happened on all of them.
+      if (Utilities::MPI::n_mpi_processes(communicator) == 1)
+        save_last_state(error.what());
+      throw;
+    }
     report();
-    write_output_if_due(control.finished());
+    write_output_if_due(control->finished());
+    if (control->finished() || checkpoints->is_due(row.step))
+      write_checkpoint();
     if (parameters.output.progress)
       log->progress(system->time(), parameters.end_time, row.step, row.time_step_size);
   }
@@ -123,12 +202,12 @@ int VesicleProblem<dim>::run()
 }
 
 template <int dim>
-void VesicleProblem<dim>::make_step(StepControl &control)
+void VesicleProblem<dim>::make_step()
 {
   const auto &options = parameters.time_stepping;
   while (true)
   {
-    const double dt = control.propose(options.interface_courant_number * system->capillary_time_step());
+    const double dt = control->propose(options.interface_courant_number * system->capillary_time_step());
     try
     {
       const auto errors = system->try_step(dt);
@@ -138,16 +217,16 @@ void VesicleProblem<dim>::make_step(StepControl &control)
     catch (const SimulationError &error)
     {
       ++n_rejected;
-      control.fail(error.what());
-      log->info("step " + std::to_string(row.step + 1) + " at t = " + rounded(control.time()) +
+      control->fail(error.what());
+      log->info("step " + std::to_string(row.step + 1) + " at t = " + rounded(control->time()) +
                 ", dt = " + rounded(dt) + " failed and is repeated with half the size: " + error.what());
       continue;
     }
-    if (control.judge(std::max(error_shape, error_composition) / options.tolerance))
+    if (control->judge(std::max(error_shape, error_composition) / options.tolerance, system->mesh_is_new()))
     {
-      if (control.noise_floor() > 0.)
+      if (control->noise_floor() > 0. && !system->mesh_is_new())
         log->warn_once("noise floor",
-                       "at t = " + rounded(control.time()) + " the estimated local error (shape " +
+                       "at t = " + rounded(control->time()) + " the estimated local error (shape " +
                            rounded(error_shape) + ", composition " + rounded(error_composition) +
                            ") does not fall with the step size: it is one of the mesh, and tolerated. "
                            "Refine the mesh ('Mesh/Phase boundary level'), or loosen 'Time "
@@ -157,7 +236,7 @@ void VesicleProblem<dim>::make_step(StepControl &control)
       return;
     }
     ++n_rejected;
-    log->info("step " + std::to_string(row.step + 1) + " at t = " + rounded(control.time()) +
+    log->info("step " + std::to_string(row.step + 1) + " at t = " + rounded(control->time()) +
               ", dt = " + rounded(dt) + " rejected: error of the shape " + rounded(error_shape) +
               ", of the composition " + rounded(error_composition) + ", tolerance " +
               rounded(options.tolerance));
@@ -173,7 +252,7 @@ void VesicleProblem<dim>::report()
   row = make_statistics(*system, *membrane);
   row.step = row.time > 0. ? previous_row.step + 1 : 0;
   row.time_step_size = row.time - previous_row.time;
-  row.wall_time = wall_clock.wall_time();
+  row.wall_time = earlier_wall_time + wall_clock.wall_time();
   row.time_error_shape = error_shape;
   row.time_error_composition = error_composition;
   if (row.step > 0)
@@ -186,7 +265,8 @@ void VesicleProblem<dim>::report()
   }
   statistics->write(row);
 
-  if (row.tension_min < 0.)
+  // With bending stiffness the wrinkles have a wavelength of their own.
+  if (row.tension_min < 0. && system->get_bending() == nullptr)
     log->warn_once(
         "negative tension",
         "the tension is negative on a part of the membrane since t = " + rounded(row.time) + " (minimum " +
@@ -215,12 +295,41 @@ void VesicleProblem<dim>::write_output_if_due(const bool at_end)
 template <int dim>
 void VesicleProblem<dim>::save_last_state(const std::string &reason)
 {
-  // The mesh already belongs to the step that failed; the membrane of the last accepted step is kept as
-  // samples.
-  if (!membrane_is_written)
-    interface_writer->write(*membrane);
+  std::string saved;
+  try
+  {
+    // The mesh already belongs to the step that failed; the membrane of the last accepted step is kept as
+    // samples.
+    if (!membrane_is_written)
+      interface_writer->write(*membrane);
+    membrane_is_written = true;
+    saved = " The membrane of the last accepted step is in interface.h5";
+    saved += ", its state in " + write_checkpoint() + ".";
+  }
+  catch (const std::exception &error)
+  {
+    // The first error is the one that counts.
+    saved += "; its state cannot be saved: " + std::string(error.what());
+  }
   log->info("stopped at t = " + rounded(row.time) + " after " + std::to_string(row.step) +
-            " steps: " + reason + " The membrane of the last accepted step is in interface.h5.");
+            " steps: " + reason + saved);
+}
+
+template <int dim>
+std::string VesicleProblem<dim>::write_checkpoint()
+{
+  TimerOutput::Scope scope(system->timer(), "checkpoints");
+  RunState<dim> state;
+  state.system = system->state();
+  state.step_control = control->memory();
+  state.row = row;
+  state.membrane = *membrane;
+  state.membrane_is_written = membrane_is_written;
+  state.n_rejected = n_rejected;
+  state.wall_time = earlier_wall_time + wall_clock.wall_time();
+  state.n_interface_groups = interface_writer->n_groups();
+  state.n_field_files = field_writer->n_files();
+  return checkpoints->write(state, provenance);
 }
 
 template <int dim>
@@ -230,6 +339,8 @@ void VesicleProblem<dim>::print_timers()
   text << "finished: t = " << row.time << ", " << row.step << " steps, " << n_rejected << " rejected, "
        << rounded(wall_clock.cpu_time()) << " s CPU (" << rounded(wall_clock.wall_time()) << " s wall clock)";
   log->info(text.str());
+  log->info("  the mesh has changed " + std::to_string(system->mesh_changes()) + " times; " +
+            std::to_string(system->mesh().n_global_active_cells()) + " cells at the end");
   const auto cpu = system->timer().get_summary_data(TimerOutput::total_cpu_time);
   const double total = std::max(wall_clock.cpu_time(), 1e-6);
   for (const auto &[section, seconds] : cpu)
@@ -248,7 +359,7 @@ template void check_case<2>(const AllParameters &, MPI_Comm);
 template <>
 VesicleProblem<3>::VesicleProblem(const AllParameters &, const MPI_Comm communicator, const std::string &,
                                   bool)
-    : communicator(communicator)
+    : communicator(communicator), stop_conditions(0., communicator)
 {
   throw ParameterError("Dimension",
                        "3 is not available yet: the parts are written for three dimensions, but the coupled "

@@ -81,31 +81,67 @@ template <int dim>
 void SemiImplicitBending<dim>::add_rhs(const CutGeometry<dim> &geometry, const double capillary_number,
                                        const ElementSystem &system, std::vector<double> &rhs) const
 {
-  constexpr unsigned int nt = TraceSpace<dim>::Basis::n, first = 2 * StokesLayout<dim>::n;
+  constexpr unsigned int nt = TraceSpace<dim>::Basis::n;
   const double scale = std::sqrt(coefficient / capillary_number);
-  std::array<double, first + nt> local;
+  ElementSystem mass(space->communicator(), true), filter(space->communicator(), true);
+  begin_system(*space, 1, mass);
+  begin_system(*space, 1, filter);
+  mass.zero_matrix();
+  filter.zero_matrix();
+
+  std::vector<double> old(space->n_unknowns(), 0.);
+  std::array<double, nt> local;
+  FullMatrix<double> matrix(nt, nt), stiffness(nt, nt);
   typename TensorLagrange<dim, 3>::Values values;
   typename TensorLagrange<dim, 3>::Gradients gradients;
   SurfacePoint<dim> point;
-  for (const BandCell<dim> &band_cell : space->band())
+  for (unsigned int b = 0; b < space->band().size(); ++b)
   {
+    const BandCell<dim> &band_cell = space->band()[b];
     const unsigned int k = band_cell.cut_index;
     const CutCell<dim> &cell = geometry.cut_cells()[k];
     local.fill(0.);
+    matrix.equ(cell.size, band_cell.normal_derivatives);
+    stiffness = 0.;
     for (unsigned int q = 0; q < cell.surface_points.size(); ++q)
     {
       point.reinit(cell, q);
+      const double weight = cell.surface_weights[q];
       const Tensor<1, dim> &n = cell.normals[q];
       TensorLagrange<dim, 3>::evaluate(cell.surface_points[q], values, gradients);
       Tensor<1, dim> slope; // (grad u_old)^T n; the shapes' gradients are tangential
       for (unsigned int i = 0; i < gradients.size(); ++i)
         slope += ((*old_velocity)[k][i] * n) * gradients[i];
-      slope *= scale * cell.surface_weights[q] / cell.size;
-      for (unsigned int j = 0; j < nt; ++j)
-        local[first + j] += slope * point.surface_gradients[j];
+      slope *= scale * weight / cell.size;
+      for (unsigned int i = 0; i < nt; ++i)
+      {
+        local[i] += slope * point.surface_gradients[i];
+        for (unsigned int j = 0; j < nt; ++j)
+        {
+          matrix(i, j) += weight * point.values[i] * point.values[j];
+          stiffness(i, j) += weight * (point.surface_gradients[i] * point.surface_gradients[j]);
+        }
+      }
     }
-    system.add_rhs(elements[k], local.data(), rhs);
+    mass.add_matrix(b, matrix);
+    matrix.add(cell.size * cell.size, stiffness);
+    filter.add_matrix(b, matrix);
+    mass.add_rhs(b, local.data(), old);
   }
+  filter.factorise();
+
+  // u_old comes from another mesh position, with errors as short as a cell whose second derivatives are large, and
+  // the flow would take them over as if they were its own past. Hence z_old is filtered, by 2F - F^2 with
+  // F = (1 - h^2 Laplace_s)^{-1}: waves of many cells stay as they are up to (h k)^4, those of a cell have no past.
+  std::vector<double> once = old;
+  filter.solve(once);
+  once = mass.apply_local_part(once);
+  std::vector<double> twice = once;
+  filter.solve(twice);
+  twice = mass.apply_local_part(twice);
+  const unsigned int first_unknown = system.n_unknowns() - space->n_unknowns();
+  for (unsigned int i = 0; i < once.size(); ++i)
+    rhs[first_unknown + i] += 2. * once[i] - twice[i];
 }
 
 template struct SemiImplicitBending<2>;

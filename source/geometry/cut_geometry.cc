@@ -1,6 +1,6 @@
+#include <gemmule/geometry/cell_level_set.h>
 #include <gemmule/geometry/cut_geometry.h>
 
-#include <deal.II/base/function.h>
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/lac/full_matrix.h>
@@ -14,48 +14,6 @@ using namespace dealii;
 
 namespace
 {
-  /** The level set of one cell as a function on the unit cell, for deal.II's quadrature generator. */
-  template <int dim>
-  class CellLevelSet : public Function<dim>
-  {
-  public:
-    using Basis = TensorLagrange<dim, 3>;
-    typename Basis::Values nodal;
-
-    double value(const Point<dim> &p, const unsigned int = 0) const override
-    {
-      typename Basis::Values v;
-      Basis::evaluate(p, v);
-      double sum = 0.;
-      for (unsigned int i = 0; i < Basis::n; ++i)
-        sum += v[i] * nodal[i];
-      return sum;
-    }
-
-    Tensor<1, dim> gradient(const Point<dim> &p, const unsigned int = 0) const override
-    {
-      typename Basis::Values v;
-      typename Basis::Gradients g;
-      Basis::evaluate(p, v, g);
-      Tensor<1, dim> sum;
-      for (unsigned int i = 0; i < Basis::n; ++i)
-        sum += nodal[i] * g[i];
-      return sum;
-    }
-
-    SymmetricTensor<2, dim> hessian(const Point<dim> &p, const unsigned int = 0) const override
-    {
-      typename Basis::Values v;
-      typename Basis::Gradients g;
-      typename Basis::Hessians h;
-      Basis::evaluate(p, v, g, h);
-      Tensor<2, dim> sum;
-      for (unsigned int i = 0; i < Basis::n; ++i)
-        sum += nodal[i] * h[i];
-      return symmetrize(sum);
-    }
-  };
-
   /** Bounds a cubic polynomial on the unit cell by its Bernstein coefficients. */
   template <int dim>
   class BernsteinBounds

@@ -5,6 +5,7 @@
 #include <deal.II/numerics/vector_tools_interpolate.h>
 
 #include <cmath>
+#include <limits>
 
 namespace Gemmule
 {
@@ -118,22 +119,67 @@ void LevelSet<dim>::advance(const MembraneMotion<dim> &motion, const BandLevelSe
 }
 
 template <int dim>
+LevelSetCell<dim> LevelSet<dim>::values_on(const typename DoFHandler<dim>::active_cell_iterator &cell) const
+{
+  std::vector<types::global_dof_index> dofs(fe.n_dofs_per_cell());
+  cell->get_dof_indices(dofs);
+  LevelSetCell<dim> result;
+  result.corner = cell->vertex(0);
+  result.size = cell->extent_in_direction(0);
+  for (unsigned int i = 0; i < node_to_dof.size(); ++i)
+    result.level_set[i] = phi(dofs[node_to_dof[i]]);
+  return result;
+}
+
+template <int dim>
 std::vector<LevelSetCell<dim>> LevelSet<dim>::gather_band() const
 {
   std::vector<LevelSetCell<dim>> local;
-  std::vector<types::global_dof_index> dofs(fe.n_dofs_per_cell());
   for (const auto &cell : dof_handler.active_cell_iterators())
     if (!is_in_band.empty() && cell->is_locally_owned() && is_in_band[cell->active_cell_index()])
+      local.push_back(values_on(cell));
+  return gather_plain(local, triangulation.get_communicator());
+}
+
+template <int dim>
+std::vector<LevelSetCell<dim>> LevelSet<dim>::gather_cells() const
+{
+  std::vector<LevelSetCell<dim>> local;
+  for (const auto &cell : dof_handler.active_cell_iterators())
+    if (cell->is_locally_owned())
+      local.push_back(values_on(cell));
+  return gather_plain(local, triangulation.get_communicator());
+}
+
+template <int dim>
+void LevelSet<dim>::restore(const std::vector<LevelSetCell<dim>> &cells, const bool set_everywhere)
+{
+  Point<dim> origin;
+  for (unsigned int d = 0; d < dim; ++d)
+    origin[d] = std::numeric_limits<double>::max();
+  for (const auto &cell : cells)
+    for (unsigned int d = 0; d < dim; ++d)
+      origin[d] = std::min(origin[d], cell.corner[d]);
+  CartesianCellMap<dim> map(origin);
+  for (unsigned int c = 0; c < cells.size(); ++c)
+    map.insert(cells[c].corner, cells[c].size, c);
+
+  const IndexSet &owned = dof_handler.locally_owned_dofs();
+  std::vector<types::global_dof_index> dofs(fe.n_dofs_per_cell());
+  phi.zero_out_ghost_values();
+  for (const auto &cell : dof_handler.active_cell_iterators())
+    if (cell->is_locally_owned())
     {
-      LevelSetCell<dim> band_cell;
-      band_cell.corner = cell->vertex(0);
-      band_cell.size = cell->extent_in_direction(0);
+      const int c = map.find(cell->center());
+      AssertThrow(c >= 0, ExcMessage("The level set must be given on all cells of the mesh."));
       cell->get_dof_indices(dofs);
       for (unsigned int i = 0; i < node_to_dof.size(); ++i)
-        band_cell.level_set[i] = phi(dofs[node_to_dof[i]]);
-      local.push_back(band_cell);
+        if (owned.is_element(dofs[node_to_dof[i]]))
+          phi(dofs[node_to_dof[i]]) = cells[c].level_set[i];
     }
-  return gather_plain(local, triangulation.get_communicator());
+  // They were finished when they were taken; finishing them again might change the last digit.
+  phi.update_ghost_values();
+  far_nodes_are_set = set_everywhere;
 }
 
 template <int dim>

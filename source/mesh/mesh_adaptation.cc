@@ -1,3 +1,4 @@
+#include <gemmule/algebra/gather.h>
 #include <gemmule/mesh/mesh_adaptation.h>
 
 #include <deal.II/base/mpi.h>
@@ -18,110 +19,162 @@ std::size_t MeshAdaptation<dim>::KeyHash::operator()(const Key &key) const
 }
 
 template <int dim>
-MeshAdaptation<dim>::MeshAdaptation(Triangulation &triangulation, const Parameters::Mesh &parameters)
-    : triangulation(triangulation), parameters(parameters),
-      criteria(make_refinement_criteria<dim>(parameters))
+MeshAdaptation<dim>::MeshAdaptation(Triangulation &triangulation, const Parameters::Mesh &parameters,
+                                    const double phase_boundary_width)
+    : triangulation(triangulation),
+      parameters(parameters), context{parameters, BoxLattice<dim>(triangulation), phase_boundary_width},
+      finest_level(parameters.largest_level()), membrane_criteria(make_membrane_criteria(context)),
+      cell_criteria(make_cell_criteria(context))
 {
-  // Coarse cells are known on all ranks; the lower corner of the box is the least of theirs.
-  for (unsigned int d = 0; d < dim; ++d)
-    origin[d] = std::numeric_limits<double>::max();
-  for (const auto &cell : triangulation.cell_iterators_on_level(0))
-  {
-    coarse_size = cell->extent_in_direction(0);
-    for (unsigned int d = 0; d < dim; ++d)
-      origin[d] = std::min(origin[d], cell->vertex(0)[d]);
-  }
 }
 
 template <int dim>
 typename MeshAdaptation<dim>::Key
 MeshAdaptation<dim>::key(const typename Triangulation::cell_iterator &cell) const
 {
-  const double size = std::ldexp(coarse_size, -cell->level());
+  const double size = context.box.cell_size(cell->level());
   Key k;
   for (unsigned int d = 0; d < dim; ++d)
-    k[d] = static_cast<int>(std::lround((cell->vertex(0)[d] - origin[d]) / size));
+    k[d] = static_cast<int>(std::lround((cell->vertex(0)[d] - context.box.lower[d]) / size));
   return k;
 }
 
 template <int dim>
+template <typename Sample, typename Criterion>
+typename MeshAdaptation<dim>::Levels
+MeshAdaptation<dim>::levels(const std::vector<Sample> &samples,
+                            const std::vector<std::unique_ptr<Criterion>> &criteria, const double margin)
+{
+  Levels result(samples.size(), 0);
+  for (const auto &criterion : criteria)
+  {
+    criterion->prepare(samples);
+    for (unsigned int i = 0; i < samples.size(); ++i)
+      result[i] = std::max(result[i], criterion->level(samples[i], margin));
+  }
+  return result;
+}
+
+template <int dim>
+void MeshAdaptation<dim>::insert_with_ancestors(Key key, unsigned int level, NeededCells &needed)
+{
+  // as far as they are not known yet
+  for (; level > 0 && needed[level].insert(key).second; --level)
+    for (int &component : key)
+      component = component >= 0 ? component / 2 : (component - 1) / 2;
+}
+
+template <int dim>
+bool MeshAdaptation<dim>::is_child_needed(const Key &key, const int level, const NeededCells &needed)
+{
+  // whole families
+  if (level + 1 >= static_cast<int>(needed.size()))
+    return false;
+  for (unsigned int child = 0; child < GeometryInfo<dim>::max_children_per_cell; ++child)
+  {
+    Key child_key;
+    for (unsigned int d = 0; d < dim; ++d)
+      child_key[d] = 2 * key[d] + ((child >> d) & 1);
+    if (needed[level + 1].count(child_key) > 0)
+      return true;
+  }
+  return false;
+}
+
+template <int dim>
 typename MeshAdaptation<dim>::NeededCells MeshAdaptation<dim>::needed_cells(const Samples &samples,
+                                                                            const Levels &levels,
                                                                             const unsigned int layers) const
 {
-  const unsigned int finest_level =
-      std::max(parameters.membrane_level, parameters.phase_boundary_level) - n_lowered_levels;
-  NeededCells needed(finest_level + 1);
+  NeededCells needed(finest_level + 1), visited(finest_level + 1);
   const int n_layers = layers, width = 2 * n_layers + 1;
   const int n_neighbours = dim == 2 ? width * width : width * width * width;
-  for (const auto &sample : samples)
+  for (unsigned int s = 0; s < samples.size(); ++s)
   {
-    unsigned int level = 0;
-    for (const auto &criterion : criteria)
-      level = std::max(level, criterion->level(sample));
-    level = std::min(level, finest_level);
-    const double size = std::ldexp(coarse_size, -static_cast<int>(level));
+    const unsigned int level = limited(levels[s]);
+    const double size = context.box.cell_size(level);
+    Key center;
+    for (unsigned int d = 0; d < dim; ++d)
+      center[d] = static_cast<int>(std::floor((samples[s].point[d] - context.box.lower[d]) / size));
+    if (!visited[level].insert(center).second)
+      continue;
     for (int i = 0; i < n_neighbours; ++i)
     {
       Key k;
       for (int d = 0, rest = i; d < dim; ++d, rest /= width)
-        k[d] = static_cast<int>(std::floor((sample.point[d] - origin[d]) / size)) + rest % width - n_layers;
-      // with its ancestors, as far as they are not known yet
-      for (int l = level; l > 0 && needed[l].insert(k).second; --l)
-        for (int &component : k)
-          component = component >= 0 ? component / 2 : (component - 1) / 2;
+        k[d] = center[d] + rest % width - n_layers;
+      insert_with_ancestors(k, level, needed);
     }
   }
   return needed;
 }
 
 template <int dim>
-bool MeshAdaptation<dim>::is_too_coarse(const Samples &samples, const unsigned int layers) const
+void MeshAdaptation<dim>::add_needed_cells(const CellSamples &samples, const Levels &levels,
+                                           NeededCells &needed) const
 {
-  const NeededCells needed = needed_cells(samples, layers);
-  bool too_coarse = false;
-  for (const auto &cell : triangulation.active_cell_iterators())
-    if (cell->is_locally_owned() && cell->level() + 1 < static_cast<int>(needed.size()))
-    {
-      // needed are whole families: it is enough to look for one child
-      Key k = key(cell);
-      for (unsigned int child = 0; child < GeometryInfo<dim>::max_children_per_cell && !too_coarse; ++child)
+  for (unsigned int s = 0; s < samples.size(); ++s)
+  {
+    const unsigned int own_level = samples[s].level;
+    const unsigned int level = limited(std::min(levels[s], own_level + 1));
+    if (level <= parameters.bulk_level)
+      continue;
+    Key k;
+    const double size = context.box.cell_size(std::min(level, own_level));
+    for (unsigned int d = 0; d < dim; ++d)
+      k[d] = static_cast<int>(std::floor((samples[s].center[d] - context.box.lower[d]) / size));
+    if (level <= own_level)
+      insert_with_ancestors(k, level, needed);
+    else
+      for (unsigned int child = 0; child < GeometryInfo<dim>::max_children_per_cell; ++child)
       {
         Key child_key;
         for (unsigned int d = 0; d < dim; ++d)
           child_key[d] = 2 * k[d] + ((child >> d) & 1);
-        too_coarse = needed[cell->level() + 1].count(child_key) > 0;
+        insert_with_ancestors(child_key, level, needed);
       }
-      if (too_coarse)
-        break;
+  }
+}
+
+template <int dim>
+typename MeshAdaptation<dim>::CellSamples MeshAdaptation<dim>::present_cells() const
+{
+  CellSamples own;
+  for (const auto &cell : triangulation.active_cell_iterators())
+    if (cell->is_locally_owned() && cell->level() > static_cast<int>(parameters.bulk_level))
+    {
+      CellSample<dim> sample{};
+      for (unsigned int d = 0; d < dim; ++d)
+        sample.center[d] = cell->center()[d];
+      sample.level = cell->level();
+      own.push_back(sample);
+    }
+  return gather_plain(own, triangulation.get_communicator());
+}
+
+template <int dim>
+bool MeshAdaptation<dim>::is_too_coarse(const Samples &samples, const unsigned int layers) const
+{
+  const NeededCells needed = needed_cells(samples, levels(samples, membrane_criteria, 1.), layers);
+  bool too_coarse = false;
+  for (const auto &cell : triangulation.active_cell_iterators())
+    if (cell->is_locally_owned() && is_child_needed(key(cell), cell->level(), needed))
+    {
+      too_coarse = true;
+      break;
     }
   return Utilities::MPI::max(static_cast<unsigned int>(too_coarse), triangulation.get_communicator()) > 0;
 }
 
 template <int dim>
-bool MeshAdaptation<dim>::sweep(const Samples &samples)
+bool MeshAdaptation<dim>::sweep(const NeededCells &to_refine, const NeededCells &to_keep)
 {
-  const NeededCells to_refine = needed_cells(samples, parameters.membrane_layers);
-  const NeededCells to_keep = needed_cells(samples, parameters.membrane_layers + 1);
-  const auto has_needed_child = [&](const Key &k, const int level)
-  {
-    if (level + 1 >= static_cast<int>(to_refine.size()))
-      return false;
-    for (unsigned int child = 0; child < GeometryInfo<dim>::max_children_per_cell; ++child)
-    {
-      Key child_key;
-      for (unsigned int d = 0; d < dim; ++d)
-        child_key[d] = 2 * k[d] + ((child >> d) & 1);
-      if (to_refine[level + 1].count(child_key) > 0)
-        return true;
-    }
-    return false;
-  };
   for (const auto &cell : triangulation.active_cell_iterators())
     if (cell->is_locally_owned())
     {
       const Key k = key(cell);
       const int level = cell->level();
-      if (has_needed_child(k, level))
+      if (is_child_needed(k, level, to_refine))
         cell->set_refine_flag();
       else if (level > static_cast<int>(parameters.bulk_level) &&
                (level >= static_cast<int>(to_keep.size()) || to_keep[level].count(k) == 0))
@@ -147,17 +200,55 @@ bool MeshAdaptation<dim>::sweep(const Samples &samples)
 }
 
 template <int dim>
-bool MeshAdaptation<dim>::adapt(const Samples &samples)
+bool MeshAdaptation<dim>::limit_cells()
 {
-  bool changed = false;
-  const unsigned int most_sweeps = 2 * (parameters.phase_boundary_level + parameters.membrane_level) + 4;
-  for (unsigned int i = 0; i < most_sweeps && sweep(samples); ++i)
+  if (triangulation.n_global_active_cells() <= parameters.largest_number_of_cells)
+    return false;
+  // A limit above the finest cells that there are would change nothing.
+  const unsigned int present = std::min(triangulation.n_global_levels() - 1, limited(finest_level));
+  if (present <= parameters.bulk_level + 1)
+    return false;
+  n_lowered_levels = finest_level - (present - 1);
+  return true;
+}
+
+template <int dim>
+bool MeshAdaptation<dim>::adapt(const Samples &samples, const CellSamples &cells)
+{
+  const Levels to_have = levels(samples, membrane_criteria, 1.),
+               to_keep = levels(samples, membrane_criteria, parameters.coarsening_margin);
+  CellSamples kept;
+  Levels cells_to_have, cells_to_keep;
+  if (needs_cell_samples() && cells.empty())
   {
+    kept = present_cells();
+    for (const auto &cell : kept)
+      cells_to_keep.push_back(cell.level);
+    cells_to_have = cells_to_keep;
+  }
+  else
+  {
+    cells_to_have = levels(cells, cell_criteria, 1.);
+    cells_to_keep = levels(cells, cell_criteria, parameters.coarsening_margin);
+  }
+  const CellSamples &cell_samples = kept.empty() ? cells : kept;
+
+  bool changed = false, is_new = true;
+  NeededCells refined, left;
+  const unsigned int most_sweeps = 4 * finest_level + 4;
+  for (unsigned int i = 0; i < most_sweeps; ++i)
+  {
+    if (is_new)
+    {
+      refined = needed_cells(samples, to_have, parameters.membrane_layers);
+      left = needed_cells(samples, to_keep, parameters.membrane_layers + 1);
+      add_needed_cells(cell_samples, cells_to_have, refined);
+      add_needed_cells(cell_samples, cells_to_keep, left);
+    }
+    if (!sweep(refined, left))
+      break;
     changed = true;
-    if (triangulation.n_global_active_cells() > parameters.largest_number_of_cells &&
-        std::max(parameters.membrane_level, parameters.phase_boundary_level) - n_lowered_levels >
-            parameters.bulk_level + 1)
-      ++n_lowered_levels;
+    is_new = limit_cells();
   }
   return changed;
 }

@@ -64,8 +64,8 @@ namespace
 
 template <int dim>
 FieldWriter<dim>::FieldWriter(const std::string &directory, const MPI_Comm &communicator,
-                              const double resume_after_time)
-    : directory(directory), communicator(communicator)
+                              const Provenance &provenance, const double resume_after_time)
+    : directory(directory), communicator(communicator), provenance(provenance)
 {
   on_rank_zero(communicator,
                [&]()
@@ -83,13 +83,19 @@ void FieldWriter<dim>::find_earlier_files(const double resume_after_time)
   const double limit = resume_after_time + 1e-12 * std::max(1., std::abs(resume_after_time));
   for (std::string path = directory + "/" + file_name(0); std::filesystem::exists(path);
        path = directory + "/" + file_name(entries.size()))
-  {
-    const Hdf5File file(path, Hdf5File::Mode::read);
-    // The attribute is written last: a file without it is what a kill has left of an output.
-    if (!file.has_attribute("/", "time") || file.number_attribute("/", "time") > limit)
+    try
+    {
+      const Hdf5File file(path, Hdf5File::Mode::read);
+      // The attribute is written last: a file without it is what a kill has left of an output.
+      if (!file.has_attribute("/", "time") || file.number_attribute("/", "time") > limit)
+        break;
+      entries.push_back(read_entry<dim>(file, file_name(entries.size())));
+    }
+    catch (const SimulationError &)
+    {
+      // The kill came so early that HDF5 cannot even open it.
       break;
-    entries.push_back(read_entry<dim>(file, file_name(entries.size())));
-  }
+    }
   for (std::size_t number = entries.size(); std::filesystem::remove(directory + "/" + file_name(number));
        ++number)
   {
@@ -129,9 +135,12 @@ void FieldWriter<dim>::write(const dealii::DataOutInterface<dim, dim> &data, con
   on_rank_zero(communicator,
                [&]()
                {
-                 Hdf5File file(path, Hdf5File::Mode::modify);
+                 Hdf5File file(path, Hdf5File::Mode::modify, provenance.n_bytes());
+                 provenance.write(file);
                  file.set_attribute("/", "time", time);
                  file.close();
+                 // Checkpoints count on it.
+                 synchronise(path);
                  entries.push_back(entry);
                  replace_file(directory + "/solution.xdmf", xdmf_text<dim>(entries));
                });

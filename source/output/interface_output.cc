@@ -2,7 +2,6 @@
 #include <gemmule/output/hdf5_file.h>
 #include <gemmule/output/interface_output.h>
 #include <gemmule/output/rank_zero.h>
-#include <gemmule/version.h>
 
 #include <deal.II/base/exceptions.h>
 
@@ -82,8 +81,8 @@ namespace
 
 template <int dim>
 InterfaceWriter<dim>::InterfaceWriter(const std::string &directory, const MPI_Comm &communicator,
-                                      const std::string &command_line, const double resume_after_time)
-    : directory(directory), communicator(communicator), command_line(command_line)
+                                      const Provenance &provenance, const double resume_after_time)
+    : directory(directory), communicator(communicator), provenance(provenance)
 {
   on_rank_zero(communicator, [&]() { start(resume_after_time); });
 }
@@ -120,11 +119,9 @@ void InterfaceWriter<dim>::start(const double resume_after_time)
 template <int dim>
 void InterfaceWriter<dim>::create_file() const
 {
-  Hdf5File file(directory + "/" + file_name, Hdf5File::Mode::create);
+  Hdf5File file(directory + "/" + file_name, Hdf5File::Mode::create, provenance.n_bytes());
   file.set_attribute("/", "schema_version", schema_version);
-  file.set_attribute("/", "gemmule_version", std::string(GEMMULE_VERSION));
-  file.set_attribute("/", "git_revision", std::string(GEMMULE_GIT_REVISION));
-  file.set_attribute("/", "command_line", command_line);
+  provenance.write(file);
   file.close();
 }
 

@@ -47,7 +47,7 @@ namespace
       std::filesystem::remove_all(directory + "/checkpoint");
 
     const std::regex ours("statistics\\.csv|interface\\.(h5|xdmf)|solution\\.xdmf|solution-[0-9]{5,}\\.h5|"
-                          "(statistics\\.csv|interface\\.xdmf|solution\\.xdmf|parameters\\.prm)\\.part");
+                          "(statistics\\.csv|interface\\.(h5|xdmf)|solution\\.xdmf|parameters\\.prm)\\.part");
     std::vector<std::filesystem::path> stale;
     for (const auto &entry : std::filesystem::directory_iterator(directory))
       if (std::regex_match(entry.path().filename().string(), ours))

@@ -69,6 +69,12 @@ void RunLog::info(const std::string &text)
   write_line(text);
 }
 
+void RunLog::record(const std::string &text)
+{
+  if (is_active)
+    file << text << std::endl;
+}
+
 void RunLog::warn(const std::string &text)
 {
   write_line("warning: " + text);

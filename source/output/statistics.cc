@@ -3,6 +3,8 @@
 #include <gemmule/output/statistics.h>
 #include <gemmule/parameters/errors.h>
 
+#include <deal.II/base/exceptions.h>
+
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -16,12 +18,16 @@ namespace
   {
     const char *name;
     std::function<void(const StatisticsRow &, std::ostream &)> print;
+    std::function<double(const StatisticsRow &)> get;
+    std::function<void(StatisticsRow &, double)> set;
   };
 
   template <typename Number>
   Column column(const char *name, Number StatisticsRow::*member)
   {
-    return {name, [member](const StatisticsRow &row, std::ostream &out) { out << row.*member; }};
+    return {name, [member](const StatisticsRow &row, std::ostream &out) { out << row.*member; },
+            [member](const StatisticsRow &row) { return static_cast<double>(row.*member); },
+            [member](StatisticsRow &row, const double value) { row.*member = static_cast<Number>(value); }};
   }
 
   /** The one list of columns; new ones go to its end, users' scripts read the others by position or name. */
@@ -108,6 +114,23 @@ std::vector<std::string> statistics_columns()
   return names;
 }
 
+std::vector<double> to_numbers(const StatisticsRow &row)
+{
+  std::vector<double> numbers;
+  for (const Column &column : columns())
+    numbers.push_back(column.get(row));
+  return numbers;
+}
+
+StatisticsRow to_statistics_row(const std::vector<double> &numbers)
+{
+  AssertThrow(numbers.size() == columns().size(), dealii::ExcMessage("One number per column is needed."));
+  StatisticsRow row;
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+    columns()[i].set(row, numbers[i]);
+  return row;
+}
+
 StatisticsWriter::StatisticsWriter(const std::string &directory, const MPI_Comm &communicator,
                                    const double resume_after_time)
     : path(directory + "/statistics.csv"), communicator(communicator)
@@ -126,6 +149,7 @@ void StatisticsWriter::start(const double resume_after_time)
       throw UserError(path + " has other columns than this version of gemmule writes: move it away to go on, "
                              "or resume with the version that began the run.");
     kept_rows = rows_up_to(earlier, resume_after_time);
+    n_written = std::count(kept_rows.begin(), kept_rows.end(), '\n');
   }
   replace_file(path, header_line() + '\n' + kept_rows);
   file.open(path, std::ios::app);
@@ -147,6 +171,7 @@ void StatisticsWriter::write(const StatisticsRow &row)
                    separator = ",";
                  }
                  file << '\n' << std::flush;
+                 ++n_written;
                  if (!file)
                    throw SimulationError("Cannot write to " + path +
                                          ": is the disk full? Make room and go on with --resume.");

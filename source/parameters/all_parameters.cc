@@ -126,6 +126,7 @@ void AllParameters::add_parameters(dealii::ParameterHandler &prm)
   surface.add_parameters(prm);
   time_stepping.add_parameters(prm);
   output.add_parameters(prm);
+  checkpoint.add_parameters(prm);
 }
 
 void AllParameters::check() const
@@ -145,6 +146,7 @@ void AllParameters::check() const
   surface.check();
   time_stepping.check();
   output.check();
+  checkpoint.check();
 
   const std::string numbers = " numbers, but 'Dimension' is " + std::to_string(dimension) +
                               ". Give one number per direction, separated by commas.";
@@ -226,5 +228,17 @@ void AllParameters::print(std::ostream &out) const
   prm.print_parameters(out,
                        static_cast<dealii::ParameterHandler::OutputStyle>(
                            dealii::ParameterHandler::PRM | dealii::ParameterHandler::KeepDeclarationOrder));
+}
+
+std::map<std::string, std::string> AllParameters::values() const
+{
+  AllParameters copy(*this);
+  dealii::ParameterHandler prm;
+  copy.add_parameters(prm);
+  const Schema schema(prm);
+  std::map<std::string, std::string> values;
+  for (const auto &[name, entry] : schema.entries())
+    values[name] = entry.value;
+  return values;
 }
 } // namespace Gemmule::Parameters

@@ -4,6 +4,8 @@
 
 #include <deal.II/base/parameter_handler.h>
 
+#include <algorithm>
+
 namespace Gemmule::Parameters
 {
 void Mesh::add_parameters(dealii::ParameterHandler &prm)
@@ -44,6 +46,46 @@ void Mesh::add_parameters(dealii::ParameterHandler &prm)
       "When the mesh gets more cells than this, its finest level is lowered by one, with a warning and for "
       "the rest of the run, though never down to the bulk level.",
       Range::at_least(1));
+  section.add("Finest level", finest_level,
+              "Finest level that the criteria below may ask for. The levels given above are not limited by "
+              "it. Equal to "
+              "the larger one of them or below, it switches these criteria off.",
+              levels);
+  section.add(
+      "Cells per phase boundary", cells_per_phase_boundary,
+      "Cells per 10-90 % width of the composition across a phase boundary in equilibrium, which is 6.2 Cahn "
+      "numbers with the quartic double well, where the composition lies between its two bounds; 0: 'Phase "
+      "boundary level' alone decides.",
+      Range::non_negative());
+  section.add("Curvature tolerance", curvature_tolerance,
+              "epsilon in h |kappa| <= epsilon, h being the edge of the cells and kappa the curvature of the "
+              "membrane "
+              "there (dimensionless); 0: no refinement by curvature.",
+              Range::non_negative());
+  section.add(
+      "Cells per gap", cells_per_gap,
+      "Cells that have to fit between two sheets of the membrane that face each other (a neck, a tip, a "
+      "near-contact of one or two vesicles) and between the membrane and the wall; 0: only as many as the "
+      "flow "
+      "needs at the wall.",
+      Range::non_negative());
+  section.add("Flow error tolerance", flow_error_tolerance,
+              "Estimated error of the flow, relative in the energy norm, that is spread evenly over the "
+              "cells: those with "
+              "more than their share are refined, those with much less are coarsened (dimensionless); 0: no "
+              "refinement "
+              "by the error of the flow.",
+              Range::non_negative());
+  section.add(
+      "Coarsening margin", coarsening_margin,
+      "Hysteresis: cells are coarsened only where the criteria would be met with all lengths smaller by this "
+      "factor (dimensionless).",
+      Range::between(1., 10.));
+}
+
+unsigned int Mesh::largest_level() const
+{
+  return std::max({finest_level, membrane_level, phase_boundary_level});
 }
 
 void Mesh::check() const

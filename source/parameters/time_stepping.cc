@@ -39,7 +39,8 @@ void TimeStepping::add_parameters(dealii::ParameterHandler &prm)
   section.add(
       "Tension implicitness", tension_implicitness,
       "S, how much of the membrane's stiffness the flow takes implicitly: that of the tension against normal "
-      "displacements and that of the regularisation 'compressibility' against dilatation. A term of order "
+      "displacements, that of the regularisation 'compressibility' against dilatation, and that of bending "
+      "(five times S of it). A term of order "
       "dt^2 that damps short waves (dimensionless). 0: explicit coupling, stable up to a capillary Courant "
       "number of about 0.7; 0.4: stable for larger ones.",
       Range{0., 10., false});

@@ -17,15 +17,17 @@ namespace
   constexpr double order_of_local_error = 3.;
   // How fast an estimate that could not be reduced is forgotten, per step.
   constexpr double fading = 0.99;
+  // The same when it comes from a change of the mesh, which later steps do not see.
+  constexpr double fading_after_change = 0.5;
   // Halvings of the initial step for the first one, of first order.
   constexpr unsigned int largest_number_of_halvings = 4;
 } // namespace
 
 StepControl::StepControl(const Parameters::TimeStepping &parameters, const double start_time,
                          std::vector<double> stops_)
-    : parameters(parameters), now(start_time), stops(std::move(stops_)),
-      n_halvings(largest_number_of_halvings)
+    : parameters(parameters), stops(std::move(stops_)), n_halvings(largest_number_of_halvings)
 {
+  now = start_time;
   Assert(!stops.empty(), dealii::ExcMessage("There must be an end."));
   std::sort(stops.begin(), stops.end());
   while (parameters.adaptive && n_halvings > 0 &&
@@ -70,7 +72,7 @@ void StepControl::shrink(const double factor, const std::string &reason)
   n_started = n_halvings + 1;
 }
 
-bool StepControl::judge(const double estimate)
+bool StepControl::judge(const double estimate, const bool on_new_mesh)
 {
   // Whether it is good enough is measured by what can be reached, the step by the part that depends on it.
   const double error = estimate / std::max(1., 1.5 * floor);
@@ -90,13 +92,16 @@ bool StepControl::judge(const double estimate)
       shrink(std::clamp(ideal, 0.2, 0.7), reason.str());
       return false;
     }
+    floor_passes = on_new_mesh && (floor_passes || floor == 0.);
     floor = std::max(floor, estimate);
     wanted = rejected_step;
   }
   else if (parameters.adaptive && !is_remainder)
   {
-    floor = floor < 0.1 ? 0. : fading * floor;
-    wanted = std::min(std::max(proposed * std::min(ideal, parameters.largest_growth),
+    // Beside a floor that passes, an estimate says little: the step must not grow on its account.
+    const double largest_growth = floor > 0. && floor_passes ? 1. : parameters.largest_growth;
+    floor = floor < 0.1 ? 0. : (floor_passes ? fading_after_change : fading) * floor;
+    wanted = std::min(std::max(proposed * std::min(ideal, largest_growth),
                                // a step cut short by a stop says little about what is possible
                                ideal >= 1. ? std::min(wanted, proposed * ideal) : 0.),
                       parameters.largest_step);

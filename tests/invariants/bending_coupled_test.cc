@@ -94,7 +94,6 @@ TEST_P(ParallelShapeModes, DecayAtTheRatesOfLinearTheory)
     CoupledSystem<2> system(parameters, MPI_COMM_WORLD);
     system.initialise();
     const double rate = k / (4. * radius);
-    std::cout << "mode " << k << ", tension: " << decay_rate(system, k) << ", theory " << rate << std::endl;
     EXPECT_NEAR(decay_rate(system, k), rate, 5e-3 * rate);
   }
   {
@@ -103,7 +102,6 @@ TEST_P(ParallelShapeModes, DecayAtTheRatesOfLinearTheory)
     CoupledSystem<2> system(parameters, MPI_COMM_WORLD);
     system.initialise();
     const double rate = 0.1 * k * (k * k - 1.5) / (4. * std::pow(radius, 3));
-    std::cout << "mode " << k << ", bending: " << decay_rate(system, k) << ", theory " << rate << std::endl;
     EXPECT_NEAR(decay_rate(system, k), rate, 5e-3 * rate);
   }
 }
@@ -123,7 +121,6 @@ TEST(ParallelCoupledBending, StepsAreNotLimitedByTheMesh)
     system.try_step(dt);
     system.accept();
   }
-  std::cout << "amplitude " << amplitude_of(system, 3) / initial << ", theory " << std::exp(-rate * 20 * dt) << std::endl;
   EXPECT_NEAR(amplitude_of(system, 3) / initial / std::exp(-rate * 20 * dt), 1., 0.02);
   // what is finer than the mode has not grown
   EXPECT_LT(statistics_of(system).curvature_max, 2. * (1. + 9. * 0.04));
@@ -173,9 +170,8 @@ TEST(ParallelCoupledBending, CurvatureStaysSmoothWhileACircleIsCarriedThroughThe
     system.accept();
   }
   const auto end = errors();
-  std::cout << "curvature, start: " << start[0] << ' ' << start[1] << " (div n " << start[2] << ' ' << start[3]
-            << "), end: " << end[0] << ' ' << end[1] << " (div n " << end[2] << ' ' << end[3] << ")" << std::endl;
-  EXPECT_LT(end[0], 0.02);
+  EXPECT_LT(end[0], 2e-3);
+  EXPECT_LT(end[0], 0.5 * end[2]) << "the weak form is better than second derivatives of the level set";
 }
 
 TEST(ParallelCoupledBending, EnergyFallsAndMassesAndAreaStay)
@@ -193,7 +189,6 @@ TEST(ParallelCoupledBending, EnergyFallsAndMassesAndAreaStay)
     { return rows[j].dissipation_viscous + rows[j].dissipation_phase; };
     sum += 0.5 * (rows[i].time - rows[i - 1].time) * (dissipation(i) + dissipation(i - 1));
   }
-  std::cout << "balance " << sum << " of " << rows.back().energy_total - rows.front().energy_total << std::endl;
   EXPECT_LT(std::abs(sum), 0.02 * std::abs(rows.back().energy_total - rows.front().energy_total));
 }
 
@@ -202,8 +197,6 @@ TEST(ParallelArclength, MultiplierKeepsItToAMillionth)
   AllParameters parameters = case_with_bending();
   parameters.arclength.model = ArclengthModel::multiplier;
   const auto rows = run_with_step_control(parameters, 0.2);
-  std::cout << "multiplier: largest |L/L0 - 1| " << largest_stretch(rows) << " in " << rows.size() - 1 << " steps"
-            << std::endl;
   EXPECT_LT(largest_stretch(rows), 1e-6);
   for (unsigned int i = 1; i < rows.size(); ++i)
     EXPECT_LT(rows[i].energy_total, rows[i - 1].energy_total) << "step " << i;
@@ -228,9 +221,6 @@ TEST(ParallelArclength, PenaltyIsStableHoweverStiff)
     parameters.arclength.model = ArclengthModel::penalty;
     parameters.arclength.penalty = stiffness;
     const auto rows = run_with_step_control(parameters, 0.2);
-    std::cout << "penalty " << stiffness << ": largest |L/L0 - 1| " << largest_stretch(rows) << ", at the end "
-              << rows.back().arclength / rows.front().arclength - 1. << ", " << rows.size() - 1
-              << " steps, tension " << rows.back().tension_min << " to " << rows.back().tension_max << std::endl;
     EXPECT_LT(rows.size(), 60u);
     EXPECT_LT(largest_stretch(rows), 2. / stiffness + 2e-5);
   }

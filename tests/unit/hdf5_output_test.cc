@@ -51,7 +51,7 @@ InterfaceSamples<2> circle(const double time, const double radius, const unsigne
 
 TEST_F(OutputTest, InterfaceIsReadBack)
 {
-  InterfaceWriter<2> writer(directory, MPI_COMM_SELF, "gemmule case.prm");
+  InterfaceWriter<2> writer(directory, MPI_COMM_SELF, Provenance("gemmule case.prm", {{"End time", "1"}}));
   writer.write(circle(0., 0.5));
   writer.write(circle(0.25, 0.4, 32));
 
@@ -97,7 +97,7 @@ TEST_F(OutputTest, InterfaceIsReadBack)
 
 TEST_F(OutputTest, InterfaceXdmfListsEveryTimeAndField)
 {
-  InterfaceWriter<2> writer(directory, MPI_COMM_SELF, "");
+  InterfaceWriter<2> writer(directory, MPI_COMM_SELF, Provenance());
   writer.write(circle(0., 0.5));
   writer.write(circle(0.25, 0.4));
   const std::string text = content("interface.xdmf");
@@ -110,13 +110,13 @@ TEST_F(OutputTest, InterfaceXdmfListsEveryTimeAndField)
 TEST_F(OutputTest, InterfaceOfAResumedRunIsCutOff)
 {
   {
-    InterfaceWriter<2> writer(directory, MPI_COMM_SELF, "first");
+    InterfaceWriter<2> writer(directory, MPI_COMM_SELF, Provenance("first", {}));
     for (const double time : {0., 0.1, 0.2, 0.3})
       writer.write(circle(time, 0.5));
     Hdf5File file(path("interface.h5"), Hdf5File::Mode::modify);
     file.create_group("step_00004"); // what a kill leaves
   }
-  InterfaceWriter<2> resumed(directory, MPI_COMM_SELF, "second", 0.1);
+  InterfaceWriter<2> resumed(directory, MPI_COMM_SELF, Provenance("second", {}), 0.1);
   EXPECT_EQ(content("interface.xdmf").find("step_00002"), std::string::npos);
   resumed.write(circle(0.15, 0.3));
 
@@ -129,7 +129,7 @@ TEST_F(OutputTest, InterfaceOfAResumedRunIsCutOff)
 
 TEST_F(OutputTest, InterfaceOnAFullDiskFailsReadably)
 {
-  InterfaceWriter<2> writer(directory, MPI_COMM_SELF, "");
+  InterfaceWriter<2> writer(directory, MPI_COMM_SELF, Provenance());
   writer.write(circle(0., 0.5));
   const std::string message = message_of(
       [&]()
@@ -149,7 +149,8 @@ TEST_F(OutputTest, InterfaceOnAFullDiskFailsReadably)
 TEST_F(OutputTest, InterfaceOfADamagedFileFailsReadably)
 {
   std::ofstream(path("interface.h5")) << "This is no HDF5 file.";
-  const std::string message = message_of([&]() { InterfaceWriter<2>(directory, MPI_COMM_SELF, "", 1.); });
+  const std::string message =
+      message_of([&]() { InterfaceWriter<2>(directory, MPI_COMM_SELF, Provenance(), 1.); });
   EXPECT_NE(message.find("interface.h5"), std::string::npos) << message;
   EXPECT_NE(message.find("damaged"), std::string::npos) << message;
 }
@@ -170,7 +171,7 @@ TEST_F(ParallelOutputTest, FieldsAreReadBackAndResumed)
   data.add_data_vector(values, "level_set");
   data.build_patches();
   {
-    FieldWriter<2> writer(directory, MPI_COMM_WORLD);
+    FieldWriter<2> writer(directory, MPI_COMM_WORLD, Provenance("gemmule case.prm", {}));
     for (const double time : {0., 0.5, 1.})
       writer.write(data, time);
   }
@@ -179,6 +180,8 @@ TEST_F(ParallelOutputTest, FieldsAreReadBackAndResumed)
                {
                  const Hdf5File file(path("solution-00001.h5"), Hdf5File::Mode::read);
                  EXPECT_EQ(file.number_attribute("/", "time"), 0.5);
+                 EXPECT_EQ(file.text_attribute("/", "command_line"), "gemmule case.prm");
+                 EXPECT_EQ(file.text_attribute("/", "git_revision"), GEMMULE_GIT_REVISION);
                  EXPECT_EQ(file.extent("cells"), (std::vector<std::size_t>{64, 4}));
                  const std::vector<double> nodes = file.read("nodes");
                  const std::vector<double> level_set = file.read("level_set");
@@ -188,7 +191,9 @@ TEST_F(ParallelOutputTest, FieldsAreReadBackAndResumed)
                });
 
   const std::string complete = content("solution.xdmf");
-  FieldWriter<2> resumed(directory, MPI_COMM_WORLD, 0.5);
+  on_rank_zero(MPI_COMM_WORLD,
+               [&]() { std::ofstream(path("solution-00002.h5")) << "what is left by an early kill"; });
+  FieldWriter<2> resumed(directory, MPI_COMM_WORLD, Provenance(), 0.5);
   EXPECT_EQ(std::filesystem::exists(path("solution-00001.h5")), true);
   EXPECT_EQ(std::filesystem::exists(path("solution-00002.h5")), false);
   resumed.write(data, 1.);
@@ -207,11 +212,11 @@ TEST_F(ParallelOutputTest, FieldsThatCannotBeWrittenFailOnAllRanks)
   dealii::Vector<float> values(triangulation.n_active_cells());
   data.add_data_vector(values, "level", dealii::DataOut<2>::type_cell_data);
   data.build_patches();
-  FieldWriter<2> writer(path("missing"), MPI_COMM_WORLD);
+  FieldWriter<2> writer(path("missing"), MPI_COMM_WORLD, Provenance());
   const std::string message = message_of([&]() { writer.write(data, 0.); });
   EXPECT_NE(message.find("missing/solution-00000.h5"), std::string::npos) << message;
 
-  FieldWriter<2> on_full_disk(directory, MPI_COMM_WORLD);
+  FieldWriter<2> on_full_disk(directory, MPI_COMM_WORLD, Provenance());
   const FullDisk full_disk(1000);
   const std::string disk_message = message_of([&]() { on_full_disk.write(data, 0.); });
   EXPECT_NE(disk_message.find("disk full"), std::string::npos) << disk_message;

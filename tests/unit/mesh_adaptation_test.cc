@@ -1,4 +1,5 @@
 // Which cells the adaptation makes for given samples of a membrane.
+#include <gemmule/algebra/gather.h>
 #include <gemmule/mesh/mesh_adaptation.h>
 
 #include <deal.II/base/mpi.h>
@@ -62,6 +63,8 @@ Parameters::Mesh levels(const unsigned int bulk, const unsigned int membrane,
   parameters.bulk_level = bulk;
   parameters.membrane_level = membrane;
   parameters.phase_boundary_level = phase_boundary;
+  // only what a test is about
+  parameters.cells_per_gap = parameters.curvature_tolerance = 0.;
   return parameters;
 }
 
@@ -260,4 +263,104 @@ TEST(ParallelMeshAdaptation, LimitOnTheNumberOfCellsLowersTheFinestLevel)
   EXPECT_GT(limited.adaptation.lowered_levels(), 0u);
   EXPECT_EQ(limited.finest_level(), 8 - static_cast<int>(limited.adaptation.lowered_levels()));
   EXPECT_FALSE(limited.adaptation.adapt(samples)) << "the lowered level is kept";
+}
+
+TEST(ParallelMeshAdaptation, TheLimitLowersOnlyAsFarAsItMust)
+{
+  // Far finer levels are allowed than are there: lowering them one by one would change nothing.
+  auto parameters = levels(2, 6, 6);
+  parameters.finest_level = 12;
+  AdaptiveBox<2> unlimited(parameters);
+  const auto samples = circle<2>(Point<2>(), 0.45, 2000);
+  unlimited.adaptation.adapt(samples);
+  ASSERT_EQ(unlimited.finest_level(), 6);
+  parameters.largest_number_of_cells = unlimited.n_cells() - 1;
+  AdaptiveBox<2> limited(parameters);
+  limited.adaptation.adapt(samples);
+  EXPECT_LE(limited.n_cells(), parameters.largest_number_of_cells);
+  EXPECT_EQ(limited.finest_level(), 5);
+  EXPECT_EQ(limited.adaptation.limited(12), 5u);
+
+  // What a restart needs.
+  AdaptiveBox<2> restarted(parameters);
+  restarted.adaptation.set_lowered_levels(limited.adaptation.lowered_levels());
+  restarted.adaptation.adapt(samples);
+  EXPECT_EQ(restarted.n_cells(), limited.n_cells());
+}
+
+TEST(ParallelMeshAdaptation, CurvatureMakesTheMeshFinerWithHysteresis)
+{
+  auto parameters = levels(2, 4, 4);
+  parameters.curvature_tolerance = 0.5;
+  parameters.finest_level = 7;
+  AdaptiveBox<2> box(parameters);
+  auto samples = circle<2>(Point<2>(), 0.45);
+  const auto set_curvature = [&](const double curvature)
+  {
+    for (auto &sample : samples)
+      sample.curvature = sample.point[0] > 0.2 ? curvature : 1.;
+  };
+  set_curvature(10.); // h = 1/32 for 0.5 / 10
+  box.adaptation.adapt(samples);
+  EXPECT_EQ(box.finest_level(), 6);
+  set_curvature(7.5); // level 5 would do, but not by far
+  box.adaptation.adapt(samples);
+  EXPECT_EQ(box.finest_level(), 6);
+  set_curvature(6.);
+  box.adaptation.adapt(samples);
+  EXPECT_EQ(box.finest_level(), 5);
+  set_curvature(1e5);
+  box.adaptation.adapt(samples);
+  EXPECT_EQ(box.finest_level(), 7) << "not beyond the finest level";
+}
+
+TEST(ParallelMeshAdaptation, CellsAreRefinedKeptAndCoarsenedByTheErrorOfTheFlow)
+{
+  auto parameters = levels(2, 4, 4);
+  parameters.flow_error_tolerance = 0.1;
+  parameters.finest_level = 5;
+  AdaptiveBox<2> box(parameters);
+  const auto samples = circle<2>(Point<2>(-0.5, -0.5), 0.2);
+  box.adaptation.adapt(samples);
+  const auto is_chosen = [](const auto &cell) { return cell->center()[0] > 0.5 && cell->center()[1] > 0.5; };
+  const auto adapt = [&](const double error_in_the_corner)
+  {
+    std::vector<CellSample<2>> own;
+    box.for_owned_cells(
+        [&](const auto &cell)
+        {
+          CellSample<2> sample{};
+          sample.center = {{cell->center()[0], cell->center()[1]}};
+          sample.level = cell->level();
+          sample.error = is_chosen(cell) ? error_in_the_corner : 1e-9;
+          own.push_back(sample);
+        });
+    box.adaptation.adapt(samples, gather_plain(own, MPI_COMM_WORLD));
+  };
+  const auto levels_in_the_corner = [&]
+  {
+    std::pair<int, int> range{100, 0};
+    box.for_owned_cells(
+        [&](const auto &cell)
+        {
+          if (is_chosen(cell))
+            range = {std::min(range.first, cell->level()), std::max(range.second, cell->level())};
+        });
+    return std::make_pair(Utilities::MPI::min(range.first, MPI_COMM_WORLD),
+                          Utilities::MPI::max(range.second, MPI_COMM_WORLD));
+  };
+  EXPECT_EQ(levels_in_the_corner(), std::make_pair(2, 2));
+  adapt(1.);
+  EXPECT_EQ(levels_in_the_corner(), std::make_pair(3, 3)) << "one level for each flow";
+  adapt(1.);
+  adapt(1.);
+  adapt(1.);
+  EXPECT_EQ(levels_in_the_corner(), std::make_pair(5, 5)) << "not beyond the finest level";
+  const double share = 0.1 / std::sqrt(static_cast<double>(box.n_cells()));
+  adapt(0.5 * share);
+  EXPECT_EQ(levels_in_the_corner(), std::make_pair(5, 5));
+  box.adaptation.adapt(samples);
+  EXPECT_EQ(levels_in_the_corner(), std::make_pair(5, 5)) << "kept while the flow is not known";
+  adapt(0.01 * share);
+  EXPECT_EQ(levels_in_the_corner(), std::make_pair(4, 4));
 }

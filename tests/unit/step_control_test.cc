@@ -105,6 +105,28 @@ TEST(StepControl, DoesNotChaseAnErrorThatIsNotOneOfTime)
   EXPECT_GT(control.noise_floor(), 1.);
 }
 
+TEST(StepControl, SoonForgetsWhatAChangeOfTheMeshHasShown)
+{
+  StepControl control(parameters(), 0., {10.});
+  for (unsigned int i = 0; i < 12; ++i)
+  {
+    control.propose(unlimited);
+    ASSERT_TRUE(control.judge(0.7));
+  }
+  const double usual = control.propose(unlimited);
+  EXPECT_FALSE(control.judge(20., true));
+  control.propose(unlimited);
+  EXPECT_TRUE(control.judge(20., true)) << "no step size helps";
+  EXPECT_GT(control.noise_floor(), 10.);
+  unsigned int n_steps = 0;
+  for (; control.noise_floor() > 0.; ++n_steps)
+  {
+    EXPECT_LE(control.propose(unlimited), usual) << "no larger steps on its account";
+    ASSERT_TRUE(control.judge(0.3, n_steps < 2));
+    ASSERT_LT(n_steps, 12u);
+  }
+}
+
 TEST(StepControl, TakesTheRemainderBeforeAStopAsItIs)
 {
   // Shorter than the smallest step, and with an error that it cannot help.

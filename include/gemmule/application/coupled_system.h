@@ -1,5 +1,6 @@
 #pragma once
 
+#include <gemmule/application/coupled_state.h>
 #include <gemmule/application/step_errors.h>
 #include <gemmule/flow/stokes_solver.h>
 #include <gemmule/geometry/cut_geometry.h>
@@ -39,6 +40,15 @@ public:
    */
   void initialise();
 
+  /** What is needed to continue from the current (accepted) state. Collective. */
+  CoupledState<dim> state() const;
+
+  /**
+   * Instead of initialise(): continues from state() of a run with the same parameters, on any number of
+   * ranks. Throws SimulationError when that is impossible. Collective.
+   */
+  void restore(const CoupledState<dim> &state);
+
   /**
    * Computes the state at time() + dt. Throws SimulationError when that is impossible; accept() or another
    * try follows.
@@ -77,6 +87,10 @@ public:
   double reference_arclength() const { return arclength_0; }
   double area_correction() const { return last_area_correction; }
   unsigned int lowered_levels() const { return adaptation.lowered_levels(); }
+  /** How often the mesh has changed since the start. */
+  unsigned int mesh_changes() const { return n_mesh_changes; }
+  /** Has the mesh changed within the time levels that the estimated errors of the last try look at? */
+  bool mesh_is_new() const { return n_steps_on_mesh < 3; }
   dealii::TimerOutput &timer() { return timer_output; }
 
 private:
@@ -90,9 +104,15 @@ private:
   void check_wall() const;
   /** Curvature for the bending energy at the quadrature points of the cut mesh; nullptr without bending. */
   const MembranePointValues *compute_curvature();
+  /** Throws SimulationError if some cut cell is coarser than "Membrane level". */
+  void check_refined_band() const;
+  /** Samples the error of the last flow for the criteria that need it. */
+  void sample_flow();
   /** @param old_velocity of the same material points one step ago; nullptr at the start */
   void solve_flow(double time, double dt, const CutCellVector<dim> *old_velocity);
   double compute_capillary_time_step() const;
+  /** Level set and cut mesh of the current membrane after @p motion, with the area of the beginning. */
+  void move_level_set(const MembraneMotion<dim> &motion);
   bool has_arclength_multiplier() const;
   /** The arclength that a multiplier gives the membrane in the next step. */
   double next_arclength() const;
@@ -118,6 +138,9 @@ private:
   double area_0 = 0., arclength_0 = 0.;
   double last_area_correction = 0.;
   unsigned int steps_since_remeshing = 0;
+  unsigned int n_mesh_changes = 0;
+  unsigned int n_steps_on_mesh = 0; ///< accepted ones since the last change
+  std::vector<CellSample<dim>> flow_samples; ///< of the current state; empty if no criterion needs them
 
   MembraneSnapshot<dim> current, previous, trial;
   double dt_previous = 0.;  ///< between previous and current

@@ -29,10 +29,12 @@ public:
   /**
    * Refines the mesh until it satisfies the criteria for the initial membrane and composition.
    * Throws UserError when there is no membrane in the box, or it touches the wall, or a concentration is not
-   * finite or not positive on it. Collective.
+   * finite or not positive on it.
+   * @param cells of the flow on the present mesh, where the flow is known already
+   * @return whether the mesh has changed. Collective.
    */
-  void make_mesh(Triangulation &triangulation, LevelSet<dim> &level_set, CutGeometry<dim> &geometry,
-                 MeshAdaptation<dim> &adaptation) const;
+  bool make_mesh(Triangulation &triangulation, LevelSet<dim> &level_set, CutGeometry<dim> &geometry,
+                 MeshAdaptation<dim> &adaptation, const std::vector<CellSample<dim>> &cells = {}) const;
 
   /** Level set := signed distance of the membrane, and its geometry, on a mesh that is final. Collective. */
   void make_level_set(const dealii::Point<dim> &origin, LevelSet<dim> &level_set,
@@ -48,7 +50,10 @@ private:
                                            const CutGeometry<dim> &geometry) const;
   /** Refines towards sign changes of the expression until they have the membrane's level. */
   void find(Triangulation &triangulation) const;
-  void check_wall(const Triangulation &triangulation, const CutGeometry<dim> &geometry) const;
+  void check_sign(const Triangulation &triangulation, const CutGeometry<dim> &geometry) const;
+  /** On the final mesh: the criteria refine towards a wall that is near. */
+  void check_wall(const Triangulation &triangulation, const CutGeometry<dim> &geometry,
+                  unsigned int finest_level) const;
   void check_expressions(const std::vector<MembraneSample<dim>> &membrane) const;
 
   const AllParameters parameters;

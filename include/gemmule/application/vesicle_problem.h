@@ -1,5 +1,7 @@
 #pragma once
 
+#include <gemmule/application/stop_conditions.h>
+#include <gemmule/output/provenance.h>
 #include <gemmule/output/run_log.h>
 #include <gemmule/output/statistics.h>
 #include <gemmule/parameters/all_parameters.h>
@@ -14,6 +16,8 @@
 namespace Gemmule
 {
 template <int dim>
+class Checkpoints;
+template <int dim>
 class CoupledSystem;
 template <int dim>
 class FieldWriter;
@@ -23,44 +27,59 @@ template <int dim>
 struct InterfaceSamples;
 class OutputDirectory;
 class StepControl;
+template <int dim>
+struct RunState;
 
-/** Runs one case: the time loop around CoupledSystem, with step control and output. */
+/** Runs one case: the time loop around CoupledSystem, with step control, output and checkpoints. */
 template <int dim>
 class VesicleProblem
 {
 public:
-  /** Throws UserError when the case cannot be set up. Collective. */
+  /**
+   * Sets up the case, or what an earlier run has left with @p resume. Throws UserError when that is
+   * impossible. Collective.
+   */
   VesicleProblem(const AllParameters &parameters, MPI_Comm communicator, const std::string &command_line,
                  bool resume);
   ~VesicleProblem();
 
-  /** @return exit code of the program: 0 finished. Throws SimulationError. */
+  /** @return exit code of the program: 0 finished, 3 stopped before. Throws SimulationError. */
   int run();
 
 private:
+  void open_output(const RunState<dim> *resumed);
+  void continue_from(RunState<dim> &state, const std::vector<std::string> &notes);
   std::vector<double> stops() const;
   void announce() const;
   /** One accepted step, however many attempts that takes. */
-  void make_step(StepControl &control);
+  void make_step();
   void report();
   void write_output_if_due(bool at_end);
   /** Before the run ends with an error: what was accepted last goes to the disk. */
   void save_last_state(const std::string &reason);
+  /** @return its path */
+  std::string write_checkpoint();
   void print_timers();
 
   const AllParameters parameters;
   const MPI_Comm communicator;
   const std::string command_line;
+  const StopConditions stop_conditions;
+  const Provenance provenance;
   dealii::Timer wall_clock;
+  double earlier_wall_time = 0.; ///< of the runs that this one continues
   std::unique_ptr<OutputDirectory> directory;
   std::unique_ptr<RunLog> log;
   std::unique_ptr<CoupledSystem<dim>> system;
   std::unique_ptr<StatisticsWriter> statistics;
   std::unique_ptr<InterfaceWriter<dim>> interface_writer;
   std::unique_ptr<FieldWriter<dim>> field_writer;
+  std::unique_ptr<Checkpoints<dim>> checkpoints;
+  std::unique_ptr<StepControl> control;
 
   std::unique_ptr<InterfaceSamples<dim>> membrane; ///< of the last accepted step
   bool membrane_is_written = false;
+  bool is_resumed = false;
   StatisticsRow row, previous_row;
   double error_shape = 0., error_composition = 0.;
   unsigned int n_rejected = 0;

@@ -16,7 +16,9 @@ namespace Gemmule
  * rigidity k the damping is as strong as needed everywhere. z enters the flow system as an additional
  * unknown on the cut cells, scaled with sqrt(S dt k / Ca), which keeps the matrix symmetric.
  *
- * A time step is then not limited by h^3 (doc/method.md).
+ * The part of u_old is filtered by 2F - F^2, F = (1 - h^2 Laplace_s)^{-1}: waves of many cells keep their past up to
+ * (h k)^4, those of a cell, which are mostly errors of the transfer between two mesh positions, lose it. A time
+ * step is then not limited by h^3 (doc/method.md).
  */
 template <int dim>
 struct SemiImplicitBending

@@ -39,6 +39,10 @@ public:
    */
   void interpolate(Vector &values) const;
 
+  /** Values of both fluids in the order of StokesLayout, by position in StokesAssembler::cell_elements();
+   * those of a fluid that the cell does not hold are zero. */
+  const std::array<Local, 2> &cell_values(const unsigned int position) const { return local[position]; }
+
 private:
   /** Fluid at each support point of a cut cell: by the sign of the cubic level set. */
   std::array<unsigned char, Layout::n> fluid_at_nodes(const CutCell<dim> &cell) const;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <gemmule/flow/bending_force.h>
+#include <gemmule/flow/flow_error_estimator.h>
 #include <gemmule/flow/membrane_force.h>
 #include <gemmule/flow/semi_implicit_bending.h>
 #include <gemmule/flow/semi_implicit_tension.h>
@@ -82,6 +83,14 @@ public:
   unsigned int n_unknowns() const { return space.n_unknowns(); }
   /** Net flux of the boundary data that was removed. */
   double removed_boundary_flux() const { return space.removed_boundary_flux(); }
+
+  /** Estimated error of the last flow, by cells. Collective. */
+  FlowErrorEstimate estimate_error() const
+  {
+    return FlowErrorEstimator<dim>::estimate(space, *geometry, assembler, bulk);
+  }
+  /** The locally owned cells (active_cell_index) in the order of estimate_error(). */
+  const std::vector<unsigned int> &owned_cells() const { return space.owned_cells(); }
 
   /** Velocity and pressure (zero mean) for output, see StokesSolution::interpolate(). */
   void interpolate(Vector &values) const { bulk.interpolate(values); }

@@ -50,6 +50,7 @@ public:
   void reinit(const CutGeometry<dim> &geometry, const dealii::Function<dim> &boundary_velocity);
 
   const dealii::DoFHandler<dim> &dof_handler() const { return handler; }
+  const dealii::parallel::distributed::Triangulation<dim> &mesh() const { return triangulation; }
   const dealii::AffineConstraints<double> &hanging_node_constraints() const { return hanging_nodes; }
   const ActiveDofs<dim> &active_dofs(unsigned int fluid) const { return active[fluid]; }
 

@@ -51,6 +51,20 @@ public:
   /** The cells with accurate values, complete on every rank: the next step's old level set. Collective. */
   std::vector<LevelSetCell<dim>> gather_band() const;
 
+  /** All cells of the mesh, complete on every rank. Collective. */
+  std::vector<LevelSetCell<dim>> gather_cells() const;
+
+  /** Have the nodes far from the membrane been set on this mesh? */
+  bool is_set_everywhere() const { return far_nodes_are_set; }
+
+  /**
+   * Sets all nodes from gather_cells() of an earlier run, with the same mesh but perhaps another number of
+   * ranks. Call after reinit_mesh(). Collective.
+   * @param set_everywhere is_set_everywhere() of that run: the next step keeps the values far from the
+   * membrane
+   */
+  void restore(const std::vector<LevelSetCell<dim>> &cells, bool set_everywhere);
+
   /** phi += amount in the band: moves the membrane inwards by this length (area correction). */
   void shift(double amount);
 
@@ -64,6 +78,7 @@ private:
   void set_nodes(const MembraneProjection<dim> &membrane,
                  const std::function<double(const dealii::Point<dim> &)> &accurate);
   void finish();
+  LevelSetCell<dim> values_on(const typename dealii::DoFHandler<dim>::active_cell_iterator &cell) const;
 
   const dealii::parallel::distributed::Triangulation<dim> &triangulation;
   const dealii::FE_Q<dim> fe;

@@ -68,7 +68,8 @@ struct MembraneCloud
 
 /**
  * The membrane at one time level, independent of the mesh and complete on every rank: it survives remeshing
- * and repartitioning without any transfer error, and is all that a restart needs (doc/method.md).
+ * and repartitioning without any transfer error (doc/method.md). A new member needs a line in
+ * application/coupled_state.cc, so that checkpoints have it.
  */
 template <int dim>
 struct MembraneSnapshot

@@ -1,62 +1,18 @@
 #pragma once
 
-#include <gemmule/parameters/mesh.h>
-
-#include <deal.II/base/point.h>
+#include <gemmule/mesh/refinement_criterion.h>
 
 #include <memory>
-#include <optional>
 #include <vector>
 
 namespace Gemmule
 {
-/** What a refinement criterion may ask of a point of the membrane. */
+/** The criteria that the parameters switch on, for points of the membrane. */
 template <int dim>
-struct MembraneSample
-{
-  dealii::Point<dim> point;
-  double curvature = 0.;             ///< div n
-  std::optional<double> composition; ///< c = f / f-bar, where there are phases
-};
+std::vector<std::unique_ptr<MembraneRefinement<dim>>>
+make_membrane_criteria(const RefinementContext<dim> &context);
 
-/**
- * Says which refinement level the membrane needs at a point. Criteria combine by the maximum. A new one is a
- * class here and a line in make_refinement_criteria().
- */
+/** The criteria that the parameters switch on, for cells. */
 template <int dim>
-class RefinementCriterion
-{
-public:
-  virtual ~RefinementCriterion() = default;
-  virtual unsigned int level(const MembraneSample<dim> &sample) const = 0;
-};
-
-/** The same level everywhere on the membrane. */
-template <int dim>
-class MembraneCriterion : public RefinementCriterion<dim>
-{
-public:
-  explicit MembraneCriterion(const Parameters::Mesh &parameters);
-  unsigned int level(const MembraneSample<dim> &sample) const override;
-
-private:
-  unsigned int membrane_level;
-};
-
-/** A finer level where the composition lies between the two phases. */
-template <int dim>
-class PhaseBoundaryCriterion : public RefinementCriterion<dim>
-{
-public:
-  explicit PhaseBoundaryCriterion(const Parameters::Mesh &parameters);
-  unsigned int level(const MembraneSample<dim> &sample) const override;
-
-private:
-  unsigned int phase_boundary_level;
-  double lower, upper;
-};
-
-template <int dim>
-std::vector<std::unique_ptr<RefinementCriterion<dim>>>
-make_refinement_criteria(const Parameters::Mesh &parameters);
+std::vector<std::unique_ptr<CellRefinement<dim>>> make_cell_criteria(const RefinementContext<dim> &context);
 } // namespace Gemmule

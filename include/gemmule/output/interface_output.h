@@ -1,5 +1,7 @@
 #pragma once
 
+#include <gemmule/output/provenance.h>
+
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>
 
@@ -36,11 +38,10 @@ struct InterfaceSamples
 /**
  * Write interface.h5, one group `step_NNNNN` (running number from 0) per output time with the attribute
  * `time` and the datasets of InterfaceSamples under their names, and interface.xdmf, which shows them in
- * ParaView (design section 4). The file's root carries `schema_version`, `gemmule_version`,
- * `git_revision`, `command_line`.
+ * ParaView (design section 4). The file's root carries `schema_version` and the entries of Provenance.
  *
- * The file is closed between two groups, so that it can be read while the program runs and a killed run
- * leaves it readable.
+ * The file is closed between two groups, so that it can be read while the program runs. A kill while a group
+ * is written may damage it: checkpoints keep a copy.
  */
 template <int dim>
 class InterfaceWriter
@@ -50,13 +51,13 @@ public:
    * Collective.
    *
    * @param directory existing directory of the results
-   * @param command_line is recorded in the file
+   * @param provenance is recorded in a new file
    * @param resume_after_time keep the groups of an existing file up to this time, delete the later ones; by
    * default a new file is started
    *
    * @throws SimulationError when the file cannot be written or, resuming, not be read
    */
-  InterfaceWriter(const std::string &directory, const MPI_Comm &communicator, const std::string &command_line,
+  InterfaceWriter(const std::string &directory, const MPI_Comm &communicator, const Provenance &provenance,
                   double resume_after_time = -std::numeric_limits<double>::infinity());
 
   /**
@@ -65,6 +66,9 @@ public:
    * @throws SimulationError when the disk does not take it
    */
   void write(const InterfaceSamples<dim> &samples);
+
+  /** Number of groups in the file; known on rank 0. */
+  std::size_t n_groups() const { return entries.size(); }
 
 private:
   /** What interface.xdmf says of one group. */
@@ -83,7 +87,7 @@ private:
 
   const std::string directory;
   const MPI_Comm communicator;
-  const std::string command_line;
+  const Provenance provenance;
   std::vector<Entry> entries;
 };
 } // namespace Gemmule

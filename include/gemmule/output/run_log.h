@@ -49,6 +49,9 @@ public:
 
   void info(const std::string &text);
 
+  /** Only to log.txt: what is of interest later. */
+  void record(const std::string &text);
+
   /** info() with the prefix "warning: ". */
   void warn(const std::string &text);
 

@@ -61,6 +61,11 @@ struct StatisticsRow
 /** Names of the columns, in the order of the file. */
 std::vector<std::string> statistics_columns();
 
+/** The row as numbers, in the order of statistics_columns(), and back: exact. */
+std::vector<double> to_numbers(const StatisticsRow &row);
+/** @param numbers as many as there are columns */
+StatisticsRow to_statistics_row(const std::vector<double> &numbers);
+
 /**
  * Write statistics.csv: a header line, then one row per accepted time step, with the 17 significant digits
  * that reproduce every double, on disk as soon as write() returns. Only rank 0 writes; construction and
@@ -83,11 +88,15 @@ public:
   /** Append a row. @throws SimulationError when the disk does not take it */
   void write(const StatisticsRow &row);
 
+  /** Number of rows in the file; known on rank 0. */
+  std::size_t n_rows() const { return n_written; }
+
 private:
   void start(double resume_after_time);
 
   const std::string path;
   const MPI_Comm communicator;
   std::ofstream file;
+  std::size_t n_written = 0;
 };
 } // namespace Gemmule

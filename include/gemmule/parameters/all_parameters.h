@@ -1,5 +1,6 @@
 #pragma once
 
+#include <gemmule/parameters/checkpoint.h>
 #include <gemmule/parameters/discretisation.h>
 #include <gemmule/parameters/domain.h>
 #include <gemmule/parameters/errors.h>
@@ -40,6 +41,7 @@ struct AllParameters
   Surface surface;
   TimeStepping time_stepping;
   Output output;
+  Checkpoint checkpoint;
 
   /** The file that parse() has read; empty without one. */
   std::string parameter_file;
@@ -70,6 +72,9 @@ struct AllParameters
 
   /** Writes every parameter, with description and default, in the syntax that parse() reads. */
   void print(std::ostream &out) const;
+
+  /** The value of every parameter as text, by its full name ("Section/Subsection/Key"). */
+  std::map<std::string, std::string> values() const;
 };
 } // namespace Gemmule::Parameters
 

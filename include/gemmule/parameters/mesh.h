@@ -23,6 +23,21 @@ struct Mesh
   /** Time steps from one remeshing to the next, at most. */
   unsigned int remeshing_interval = 10;
   unsigned int largest_number_of_cells = 200000;
+  /** Limit of what the criteria below may ask for; the levels above are not limited by it. */
+  unsigned int finest_level = 8;
+  /** Cells per 10-90 % width of the composition across a phase boundary in equilibrium; 0: none. */
+  double cells_per_phase_boundary = 0.;
+  /** epsilon in h |kappa| <= epsilon; 0: none. */
+  double curvature_tolerance = 0.5;
+  /** Cells between two sheets of the membrane, and between membrane and wall; 0: none. */
+  double cells_per_gap = 4.;
+  /** Relative error of the flow in the energy norm; 0: none. */
+  double flow_error_tolerance = 0.;
+  /** Cells are coarsened where they are finer than needed by more than this factor. */
+  double coarsening_margin = 1.25;
+
+  /** The finest level that any criterion can ask for. */
+  unsigned int largest_level() const;
 
   void add_parameters(dealii::ParameterHandler &prm);
   /** @throws ParameterError unless bulk <= membrane <= phase boundary level and lower < upper bound */

@@ -8,6 +8,20 @@
 namespace Gemmule
 {
 /**
+ * What StepControl remembers between two steps: with it another one with the same parameters continues
+ * exactly. A new member needs a line in application/run_state.cc, so that checkpoints have it.
+ */
+struct StepControlMemory
+{
+  double now = 0.;
+  double wanted = 0.;                             ///< step that the controller would like
+  double rejected_step = 0., rejected_error = 0.; ///< last rejection at this time, if any
+  double floor = 0.;
+  bool floor_passes = false;  ///< the floor comes from a change of the mesh
+  unsigned int n_started = 0; ///< steps of the start that are done; n_halvings + 1: the start is over
+};
+
+/**
  * Chooses the time steps: an elementary controller on the local error of a second-order scheme, limits, and
  * the times that have to be hit exactly. Does no computation of its own, so that it can be tested without a
  * simulation.
@@ -16,7 +30,7 @@ namespace Gemmule
  * initial step d is therefore split into d/16, d/16, d/8, d/4, d/2, which makes that error 256 times smaller,
  * at the ratio 2 of successive steps that BDF2 is stable for (1 + sqrt(2)).
  */
-class StepControl
+class StepControl : private StepControlMemory
 {
 public:
   /**
@@ -35,14 +49,17 @@ public:
 
   /**
    * @param error estimated local error of the proposed step, in units of the tolerance
+   * @param on_new_mesh whether the mesh has changed within the time levels that the estimate looks at
    * @return whether the step is accepted; time() has then advanced. Otherwise propose() again.
    *
    * An estimate that does not fall in proportion when a step is repeated smaller is not an error of the time
    * discretisation (but, say, of a mesh that is too coarse for the phase boundaries), and no step size mends
    * it: the step is accepted, and what it showed is tolerated in the following steps, see noise_floor().
+   * What shows on a new mesh (the fields of the earlier levels are those of coarser cells) is soon forgotten,
+   * and steps do not grow until then.
    * Throws SimulationError when a rejected step already had the smallest size.
    */
-  bool judge(double error);
+  bool judge(double error, bool on_new_mesh = false);
 
   /**
    * The proposed step could not be computed: the next proposal is half as long.
@@ -54,19 +71,17 @@ public:
    * noticed. */
   double noise_floor() const { return floor; }
 
+  const StepControlMemory &memory() const { return *this; }
+  void restore(const StepControlMemory &memory) { static_cast<StepControlMemory &>(*this) = memory; }
+
 private:
   void shrink(double factor, const std::string &reason);
   /** Size of the next step of the start. */
   double start_step() const;
 
   Parameters::TimeStepping parameters;
-  double now;
   std::vector<double> stops;
-  double wanted;                                  ///< step that the controller would like
-  double proposed = 0.;                           ///< step in work
-  double rejected_step = 0., rejected_error = 0.; ///< last rejection at this time, if any
-  double floor = 0.;
-  unsigned int n_halvings;    ///< of the initial step, at the start
-  unsigned int n_started = 0; ///< steps of the start that are done; n_halvings + 1: the start is over
+  double proposed = 0.;    ///< step in work
+  unsigned int n_halvings; ///< of the initial step, at the start
 };
 } // namespace Gemmule

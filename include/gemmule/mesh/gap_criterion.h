@@ -1,0 +1,57 @@
+#pragma once
+
+#include <gemmule/mesh/refinement_criterion.h>
+
+#include <unordered_map>
+
+namespace Gemmule
+{
+/**
+ * "Cells per gap" cells fit between two sheets of the membrane that face each other, whether the inside (a
+ * neck) or the outside (a near-contact) lies between them.
+ *
+ * Two points belong to sheets that face each other if their normals are more than 143 degrees apart and the
+ * line between them is within 60 degrees of the normals; along one sheet normals turn that far only around a
+ * tip, where the distance is the thickness of the tip and counts as well. The width of the gap is the part of
+ * their difference along the normal.
+ *
+ * The distances that matter at each level, "Cells per gap" cells, are the bins of a spatial hash for that
+ * level, in which the samples are thinned to an eighth of a bin: a sample looks at a bounded number of
+ * others, so that the work is proportional to the number of samples, however fine the mesh is somewhere else.
+ */
+template <int dim>
+class GapCriterion : public MembraneRefinement<dim>
+{
+public:
+  explicit GapCriterion(const RefinementContext<dim> &context);
+  void prepare(const std::vector<MembraneSample<dim>> &samples) override;
+  unsigned int level(const MembraneSample<dim> &sample, double margin) const override;
+
+private:
+  using Key = std::array<int, dim>;
+  struct KeyHash
+  {
+    std::size_t operator()(const Key &key) const;
+  };
+  struct Sheet
+  {
+    dealii::Point<dim> point;
+    dealii::Tensor<1, dim> normal;
+  };
+  struct Hash
+  {
+    double radius; ///< of the bins, and of the distances that are found
+    std::unordered_map<Key, std::vector<Sheet>, KeyHash> bins;
+  };
+
+  Key key(const dealii::Point<dim> &point, double size) const;
+  /** Width of the narrowest gap at a sample, at most the radius of the coarsest hash. */
+  double gap(const MembraneSample<dim> &sample) const;
+
+  BoxLattice<dim> box;
+  double cells;
+  unsigned int membrane_level, finest_level;
+  double largest_margin;
+  std::vector<Hash> hashes; ///< finest first
+};
+} // namespace Gemmule

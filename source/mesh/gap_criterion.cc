@@ -1,0 +1,114 @@
+#include <gemmule/mesh/gap_criterion.h>
+
+#include <algorithm>
+#include <unordered_set>
+
+namespace Gemmule
+{
+using namespace dealii;
+
+namespace
+{
+  constexpr double opposite = -0.8; ///< cosine of the angle between the normals, 143 degrees
+  constexpr double facing = 0.5;    ///< cosine of the angle between a normal and the line between two points
+  constexpr double thinning = 0.125;
+} // namespace
+
+template <int dim>
+std::size_t GapCriterion<dim>::KeyHash::operator()(const Key &key) const
+{
+  std::size_t hash = 1469598103934665603ull;
+  for (const int k : key)
+    hash = (hash ^ static_cast<unsigned int>(k)) * 1099511628211ull;
+  return hash ^ (hash >> 29);
+}
+
+template <int dim>
+GapCriterion<dim>::GapCriterion(const RefinementContext<dim> &context)
+    : box(context.box), cells(context.parameters.cells_per_gap),
+      membrane_level(context.parameters.membrane_level), finest_level(context.parameters.largest_level()),
+      largest_margin(context.parameters.coarsening_margin)
+{
+}
+
+template <int dim>
+typename GapCriterion<dim>::Key GapCriterion<dim>::key(const Point<dim> &point, const double size) const
+{
+  Key k;
+  for (unsigned int d = 0; d < dim; ++d)
+    k[d] = static_cast<int>(std::floor((point[d] - box.lower[d]) / size));
+  return k;
+}
+
+template <int dim>
+void GapCriterion<dim>::prepare(const std::vector<MembraneSample<dim>> &samples)
+{
+  hashes.clear();
+  // Gaps that are wide enough for the cells of one level need no finer one, and the membrane has its level
+  // anyway.
+  for (unsigned int level = finest_level; level > membrane_level; --level)
+    hashes.push_back({largest_margin * cells * box.cell_size(level - 1), {}});
+  for (auto &hash : hashes)
+  {
+    // One sample for each small cube and orthant of the normal: the sheets in a cube are kept apart.
+    std::array<std::unordered_set<Key, KeyHash>, 1 << dim> taken;
+    for (const auto &sample : samples)
+    {
+      unsigned int orthant = 0;
+      for (unsigned int d = 0; d < dim; ++d)
+        orthant |= (sample.normal[d] > 0. ? 1u : 0u) << d;
+      if (taken[orthant].insert(key(sample.point, thinning * hash.radius)).second)
+        hash.bins[key(sample.point, hash.radius)].push_back({sample.point, sample.normal});
+    }
+  }
+}
+
+template <int dim>
+double GapCriterion<dim>::gap(const MembraneSample<dim> &sample) const
+{
+  for (const auto &hash : hashes)
+  {
+    double narrowest = hash.radius;
+    const Key center = key(sample.point, hash.radius);
+    const int n_bins = dim == 2 ? 9 : 27;
+    for (int b = 0; b < n_bins; ++b)
+    {
+      Key k;
+      for (int d = 0, rest = b; d < dim; ++d, rest /= 3)
+        k[d] = center[d] + rest % 3 - 1;
+      const auto bin = hash.bins.find(k);
+      if (bin == hash.bins.end())
+        continue;
+      for (const Sheet &other : bin->second)
+      {
+        if (sample.normal * other.normal > opposite)
+          continue;
+        const Tensor<1, dim> difference = other.point - sample.point;
+        const double distance = difference.norm();
+        if (distance >= hash.radius)
+          continue;
+        // Seen from both points the other one is on the same side, inside or outside. Thinning leaves up to a
+        // quarter of the radius along the sheet: points that are closer face each other anyway.
+        const double here = difference * sample.normal, there = -(difference * other.normal);
+        if (distance > 0.5 * hash.radius &&
+            (here * there < 0. || std::min(std::abs(here), std::abs(there)) < facing * distance))
+          continue;
+        narrowest = std::min(narrowest, 0.5 * std::abs(here + there));
+      }
+    }
+    if (narrowest < hash.radius)
+      return narrowest;
+  }
+  return std::numeric_limits<double>::max();
+}
+
+template <int dim>
+unsigned int GapCriterion<dim>::level(const MembraneSample<dim> &sample, const double margin) const
+{
+  const double width = gap(sample);
+  return width == std::numeric_limits<double>::max() ? 0 : box.level_for(width / (margin * cells));
+}
+
+template class GapCriterion<2>;
+template class GapCriterion<3>;
+} // namespace Gemmule

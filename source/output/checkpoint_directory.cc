@@ -1,0 +1,181 @@
+#include <gemmule/output/checkpoint_directory.h>
+#include <gemmule/parameters/errors.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iomanip>
+#include <sstream>
+
+namespace Gemmule
+{
+namespace
+{
+  const std::string metadata_name = "metadata.txt";
+  const std::string file_prefix = "file ";
+  const std::string last_line_prefix = "checksum of the lines above = ";
+
+  std::string hexadecimal(const std::uint32_t number)
+  {
+    std::ostringstream text;
+    text << std::hex << std::setw(8) << std::setfill('0') << number;
+    return text.str();
+  }
+
+  std::string to_text(const Checksum &checksum)
+  {
+    return std::to_string(checksum.size) + " bytes, CRC-32 " + hexadecimal(checksum.crc);
+  }
+
+  std::string content_of(const std::string &path)
+  {
+    std::ifstream file(path, std::ios::binary);
+    std::ostringstream text;
+    text << file.rdbuf();
+    return text.str();
+  }
+} // namespace
+
+CheckpointDirectory::CheckpointDirectory(const std::string &results) : directory(results + "/checkpoint") {}
+
+std::string CheckpointDirectory::path_of(const unsigned int number) const
+{
+  std::ostringstream name;
+  name << directory << "/" << std::setw(5) << std::setfill('0') << number;
+  return name.str();
+}
+
+std::vector<unsigned int> CheckpointDirectory::numbers() const
+{
+  std::vector<unsigned int> found;
+  std::error_code error;
+  for (const auto &entry : std::filesystem::directory_iterator(directory, error))
+  {
+    const std::string name = entry.path().filename().string();
+    const bool is_number =
+        name.size() >= 5 && name.size() <= 9 && name.find_first_not_of("0123456789") == std::string::npos;
+    if (is_number && entry.is_directory())
+      found.push_back(static_cast<unsigned int>(std::stoul(name)));
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+CheckpointDirectory::Metadata CheckpointDirectory::read(const unsigned int number) const
+{
+  const std::string path = path_of(number);
+  if (!std::filesystem::exists(path + "/" + metadata_name))
+    throw SimulationError("it is incomplete: the run ended while it was written.");
+  const std::string text = content_of(path + "/" + metadata_name);
+  const std::string::size_type last_line = text.rfind(last_line_prefix);
+  if (last_line == std::string::npos ||
+      text.substr(last_line) !=
+          last_line_prefix + hexadecimal(Checksum::of_text(text.substr(0, last_line)).crc) + "\n")
+    throw SimulationError(metadata_name + " is damaged.");
+
+  Metadata metadata;
+  std::istringstream lines(text.substr(0, last_line));
+  for (std::string line; std::getline(lines, line);)
+  {
+    const std::string::size_type equals = line.find(" = ");
+    if (line[0] == '#' || equals == std::string::npos)
+      continue;
+    const std::string name = line.substr(0, equals), value = line.substr(equals + 3);
+    if (name.compare(0, file_prefix.size(), file_prefix) != 0)
+    {
+      metadata[name] = value;
+      continue;
+    }
+    const std::string file = name.substr(file_prefix.size());
+    if (!std::filesystem::exists(path + "/" + file))
+      throw SimulationError(file + " is missing.");
+    const std::string present = to_text(Checksum::of_file(path + "/" + file));
+    if (present != value)
+      throw SimulationError(file + " is damaged: it has " + present + ", written were " + value + ".");
+  }
+  return metadata;
+}
+
+std::optional<CheckpointDirectory::Checkpoint>
+CheckpointDirectory::newest_good(std::vector<std::string> &complaints) const
+{
+  const std::vector<unsigned int> all = numbers();
+  for (auto number = all.rbegin(); number != all.rend(); ++number)
+    try
+    {
+      return Checkpoint{*number, path_of(*number), read(*number)};
+    }
+    catch (const std::exception &error)
+    {
+      complaints.push_back(path_of(*number) + " cannot be used: " + error.what());
+    }
+  return {};
+}
+
+std::string CheckpointDirectory::begin()
+{
+  const std::vector<unsigned int> existing = numbers();
+  in_work = existing.empty() ? 1 : existing.back() + 1;
+  std::error_code error;
+  std::filesystem::create_directories(path_of(*in_work), error);
+  if (error)
+    throw SimulationError("Cannot create " + path_of(*in_work) + " (" + error.message() +
+                          "): is the disk full, or the directory write-protected? Make room and go on with "
+                          "--resume.");
+  return path_of(*in_work);
+}
+
+void CheckpointDirectory::complete(const Metadata &metadata, const unsigned int number_kept,
+                                   const std::vector<unsigned int> &damaged)
+{
+  const std::string path = path_of(in_work.value());
+  std::ostringstream text;
+  text << "# Written last: a checkpoint without this file is not complete.\n";
+  for (const auto &[name, value] : metadata)
+    text << name << " = " << value << '\n';
+  std::vector<std::string> files;
+  for (const auto &entry : std::filesystem::directory_iterator(path))
+    files.push_back(entry.path().filename().string());
+  std::sort(files.begin(), files.end());
+  for (const std::string &file : files)
+  {
+    synchronise(path + "/" + file);
+    text << file_prefix << file << " = " << to_text(Checksum::of_file(path + "/" + file)) << '\n';
+  }
+  const Checksum of_lines_above = Checksum::of_text(text.str());
+  text << last_line_prefix << hexadecimal(of_lines_above.crc) << '\n';
+
+  replace_file(path + "/" + metadata_name, text.str(), /*durable =*/true);
+  synchronise(path);
+  synchronise(directory);
+
+  std::vector<unsigned int> complete_ones, others;
+  for (const unsigned int number : numbers())
+  {
+    const bool is_good = std::filesystem::exists(path_of(number) + "/" + metadata_name) &&
+                         std::find(damaged.begin(), damaged.end(), number) == damaged.end();
+    (is_good ? complete_ones : others).push_back(number);
+  }
+  const std::size_t n_old = complete_ones.size() - std::min<std::size_t>(number_kept, complete_ones.size());
+  others.insert(others.end(), complete_ones.begin(), complete_ones.begin() + n_old);
+  for (const unsigned int number : others)
+    remove(number);
+  in_work.reset();
+}
+
+void CheckpointDirectory::remove(const unsigned int number) const
+{
+  // The metadata first: a kill in between leaves one that is incomplete, not one that looks damaged. What
+  // cannot be removed only takes space.
+  std::error_code ignored;
+  std::filesystem::remove(path_of(number) + "/" + metadata_name, ignored);
+  std::filesystem::remove_all(path_of(number), ignored);
+}
+
+void CheckpointDirectory::abandon() noexcept
+{
+  if (in_work)
+    remove(*in_work);
+  in_work.reset();
+}
+} // namespace Gemmule

@@ -1,0 +1,125 @@
+// The quadrature points of an earlier membrane on a mesh that has been refined since.
+#include <gemmule/geometry/cloud_refinement.h>
+#include <gemmule/geometry/cut_geometry.h>
+#include <gemmule/geometry/membrane_transport.h>
+#include <gemmule/mesh/cell_locator.h>
+
+#include <deal.II/base/function_signed_distance.h>
+#include <deal.II/base/mpi.h>
+
+#include <gtest/gtest.h>
+#include <numeric>
+
+#include "support/level_set_mesh.h"
+
+using namespace dealii;
+using namespace Gemmule;
+using namespace Gemmule::Testing;
+
+namespace
+{
+double f(const Point<2> &p)
+{
+  return 1. + 0.3 * p[0] - 0.2 * p[1] * p[1];
+}
+
+MembraneSnapshot<2> circle_snapshot(const CutGeometry<2> &geometry)
+{
+  using Fields = MembraneFields<2>;
+  std::vector<Fields> fields(geometry.cut_cells().size());
+  MembraneCloud<2> cloud;
+  for (unsigned int c = 0; c < fields.size(); ++c)
+  {
+    const auto &cell = geometry.cut_cells()[c];
+    for (unsigned int i = 0; i < Fields::n; ++i)
+    {
+      fields[c].concentration[i] = f(cell.physical(TensorLagrange<2, 3>::node(i)));
+      fields[c].total_concentration[i] = 2. * fields[c].concentration[i];
+    }
+    for (unsigned int q = 0; q < cell.surface_points.size(); ++q)
+    {
+      const Point<2> p = cell.physical(cell.surface_points[q]);
+      cloud.points.push_back(p);
+      cloud.normals.push_back(cell.normals[q]);
+      cloud.weights.push_back(cell.surface_weights[q]);
+      cloud.concentration.push_back(f(p));
+      cloud.total_concentration.push_back(2. * f(p));
+    }
+  }
+  MembraneSnapshot<2> snapshot;
+  snapshot.origin = Point<2>(-1., -1.);
+  snapshot.patches = gather_patches(geometry.cut_cells(), fields, MPI_COMM_WORLD);
+  snapshot.cloud = gather_cloud(cloud, MPI_COMM_WORLD);
+  return snapshot;
+}
+
+/** Largest error of the measure and of the mass in a cell of the mesh, relative to its size. */
+double largest_error_in_a_cell(const MembraneSnapshot<2> &snapshot, const LevelSetMesh<2> &mesh,
+                               const CutGeometry<2> &geometry)
+{
+  CellLocator<2> locator;
+  locator.reinit(mesh.triangulation);
+  std::vector<double> measure(mesh.triangulation.n_active_cells(), 0.), mass = measure;
+  const auto &cloud = snapshot.cloud;
+  for (unsigned int i = 0; i < cloud.points.size(); ++i)
+    if (const auto *cell = locator.find(cloud.points[i]))
+    {
+      measure[cell->active_cell_index] += cloud.weights[i];
+      mass[cell->active_cell_index] += cloud.weights[i] * cloud.concentration[i];
+    }
+  double error = 0.;
+  for (const auto &cell : geometry.cut_cells())
+  {
+    double exact_measure = 0., exact_mass = 0.;
+    for (unsigned int q = 0; q < cell.surface_points.size(); ++q)
+    {
+      exact_measure += cell.surface_weights[q];
+      exact_mass += cell.surface_weights[q] * f(cell.physical(cell.surface_points[q]));
+    }
+    error = std::max({error, std::abs(measure[cell.active_cell_index] - exact_measure) / cell.size,
+                      std::abs(mass[cell.active_cell_index] - exact_mass) / cell.size});
+  }
+  return Utilities::MPI::max(error, MPI_COMM_WORLD);
+}
+
+std::array<double, 3> sums(const MembraneCloud<2> &cloud)
+{
+  std::array<double, 3> s{};
+  for (unsigned int i = 0; i < cloud.points.size(); ++i)
+  {
+    s[0] += cloud.weights[i];
+    s[1] += cloud.weights[i] * cloud.concentration[i];
+    s[2] += cloud.weights[i] * cloud.total_concentration[i];
+  }
+  return s;
+}
+} // namespace
+
+TEST(ParallelCloudRefinement, EveryNewCellHasItsShareAndTheSumsStay)
+{
+  LevelSetMesh<2> mesh(4);
+  const Functions::SignedDistance::Sphere<2> circle(Point<2>(0.0137, 0.0071), 0.45);
+  mesh.interpolate(circle);
+  CutGeometry<2> geometry;
+  geometry.reinit(mesh.dof_handler, mesh.level_set);
+  MembraneSnapshot<2> snapshot = circle_snapshot(geometry);
+  const auto before = sums(snapshot.cloud);
+  EXPECT_FALSE(refine_cloud(snapshot, mesh.triangulation)) << "nothing has been refined";
+
+  // cells of three levels along the membrane
+  mesh.refine_where([](const auto &p) { return p[0] > 0.; });
+  mesh.refine_where([](const auto &p) { return p[0] > 0.2; });
+  mesh.interpolate(circle);
+  geometry.reinit(mesh.dof_handler, mesh.level_set);
+  EXPECT_GT(largest_error_in_a_cell(snapshot, mesh, geometry), 0.05) << "this is what it is for";
+  EXPECT_TRUE(refine_cloud(snapshot, mesh.triangulation));
+  EXPECT_LT(largest_error_in_a_cell(snapshot, mesh, geometry), 1e-3);
+  const auto after = sums(snapshot.cloud);
+  for (unsigned int i = 0; i < 3; ++i)
+    EXPECT_NEAR(after[i] / before[i], 1., 1e-13);
+
+  // Again, and on a coarser mesh: the sums stay what they are.
+  refine_cloud(snapshot, mesh.triangulation);
+  for (unsigned int i = 0; i < 3; ++i)
+    EXPECT_NEAR(sums(snapshot.cloud)[i] / before[i], 1., 1e-13);
+}
