@@ -116,14 +116,16 @@ void Regularisation::check() const
 void Bending::add_parameters(dealii::ParameterHandler &prm)
 {
   Section section(prm, {"Membrane", "Bending"});
-  const std::string unit = " (energy, relative to the reference tension times the reference length squared)";
-  section.add("Rigidity at composition 0", rigidity_0,
-              "Bending rigidity k of the phase with composition 0 in the Helfrich energy "
-              "(k/2)(curvature - spontaneous curvature)^2 per length" +
-                  unit +
-                  ". 0: no resistance to bending; negative tension then wrinkles the membrane at the length of "
-                  "the mesh. With a prescribed tension this value holds everywhere.",
-              Range::non_negative());
+  const std::string unit =
+      " (dimensionless: energy relative to the reference tension times the reference length squared)";
+  section.add(
+      "Rigidity at composition 0", rigidity_0,
+      "Bending rigidity k of the phase with composition 0 in the Helfrich energy "
+      "(k/2)(curvature - spontaneous curvature)^2 per length" +
+          unit +
+          ". 0: no resistance to bending; negative tension then wrinkles the membrane at the length of "
+          "the mesh. With a prescribed tension this value holds everywhere.",
+      Range::non_negative());
   section.add("Rigidity at composition 1", rigidity_1,
               "Bending rigidity k of the phase with composition 1" + unit + ".", Range::non_negative());
   section.add("Spontaneous curvature at composition 0", spontaneous_curvature_0,
