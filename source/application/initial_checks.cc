@@ -101,6 +101,32 @@ void InitialChecks<dim>::fail_level_set(const std::string &complaint) const
 }
 
 template <int dim>
+void InitialChecks<dim>::walls(const Function<dim> &expression) const
+{
+  constexpr unsigned int n = 64;
+  const auto &lower = parameters.domain.lower_corner, &upper = parameters.domain.upper_corner;
+  const unsigned int n_points = dim == 2 ? n + 1 : (n + 1) * (n + 1);
+  for (unsigned int wall = 0; wall < 2 * dim; ++wall)
+    for (unsigned int i = 0; i < n_points; ++i)
+    {
+      Point<dim> p;
+      for (unsigned int d = 0, rest = i; d < dim; ++d)
+      {
+        const bool normal = d == wall / 2;
+        const double fraction = normal ? wall % 2 : static_cast<double>(rest % (n + 1)) / n;
+        p[d] = lower[d] + fraction * (upper[d] - lower[d]);
+        if (!normal)
+          rest /= n + 1;
+      }
+      if (expression.value(p) <= 0.)
+        fail_level_set(
+            "is not positive at " + coordinates(p) +
+            " on a wall of the box: the membrane would touch the wall or leave the box. Enlarge the "
+            "box (Domain/Lower corner, Domain/Upper corner) or make the vesicle smaller.");
+    }
+}
+
+template <int dim>
 void InitialChecks<dim>::number_of_cells(const std::size_t n_cells, const unsigned int level) const
 {
   const auto &mesh = parameters.mesh;

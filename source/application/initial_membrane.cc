@@ -118,12 +118,14 @@ void InitialMembrane<dim>::check_wall(const Triangulation &triangulation, const 
   if (count_wall_cells(triangulation, geometry, communicator).not_outside == 0)
     return;
   const double edge = parameters.domain.shortest_edge() * std::ldexp(1., -static_cast<int>(finest_level));
-  InitialChecks<dim>(parameters).fail_level_set(
-      "describes a membrane that touches a wall of the box, comes closer to it than one of the finest cells "
-      "(edge " +
-      Parameters::to_text(edge) + " at level " + std::to_string(finest_level) +
-      ", limited by 'Mesh/Finest level' and 'Mesh/Largest number of cells'), or leaves the box. "
-      "Enlarge the box (Domain/Lower corner, Domain/Upper corner) or make the vesicle smaller.");
+  InitialChecks<dim>(parameters)
+      .fail_level_set(
+          "describes a membrane that touches a wall of the box, comes closer to it than one of the finest "
+          "cells "
+          "(edge " +
+          Parameters::to_text(edge) + " at level " + std::to_string(finest_level) +
+          ", limited by 'Mesh/Finest level' and 'Mesh/Largest number of cells'), or leaves the box. "
+          "Enlarge the box (Domain/Lower corner, Domain/Upper corner) or make the vesicle smaller.");
 }
 
 template <int dim>
@@ -174,9 +176,11 @@ bool InitialMembrane<dim>::make_mesh(Triangulation &triangulation, LevelSet<dim>
   find(triangulation);
   cut_mesh();
   bool changed = false;
+  // Before the criteria refine towards the wall what is wrong anyway.
+  check_sign(triangulation, geometry);
+  InitialChecks<dim>(parameters).walls(*shape);
   for (unsigned int sweep = 0; sweep < largest_number_of_sweeps; ++sweep)
   {
-    check_sign(triangulation, geometry);
     const auto membrane = samples(lower_corner<dim>(parameters.domain), geometry);
     check_expressions(membrane);
     if (!adaptation.adapt(membrane, cells))

@@ -55,7 +55,7 @@ void Mesh::add_parameters(dealii::ParameterHandler &prm)
       "Cells per phase boundary", cells_per_phase_boundary,
       "Cells per 10-90 % width of the composition across a phase boundary in equilibrium, which is 6.2 Cahn "
       "numbers with the quartic double well, where the composition lies between its two bounds; 0: 'Phase "
-      "boundary level' alone decides.",
+      "boundary level' alone decides (dimensionless).",
       Range::non_negative());
   section.add("Curvature tolerance", curvature_tolerance,
               "epsilon in h |kappa| <= epsilon, h being the edge of the cells and kappa the curvature of the "
@@ -66,8 +66,7 @@ void Mesh::add_parameters(dealii::ParameterHandler &prm)
       "Cells per gap", cells_per_gap,
       "Cells that have to fit between two sheets of the membrane that face each other (a neck, a tip, a "
       "near-contact of one or two vesicles) and between the membrane and the wall; 0: only as many as the "
-      "flow "
-      "needs at the wall.",
+      "flow needs at the wall (dimensionless).",
       Range::non_negative());
   section.add("Flow error tolerance", flow_error_tolerance,
               "Estimated error of the flow, relative in the energy norm, that is spread evenly over the "

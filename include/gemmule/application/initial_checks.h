@@ -43,6 +43,9 @@ public:
    */
   void membrane(const dealii::Function<dim> &expression, const MembraneProjection<dim> &membrane) const;
 
+  /** The level set on a lattice of points on the walls of the box: it has to be positive there. */
+  void walls(const dealii::Function<dim> &expression) const;
+
   /** What the level set encloses before and after it was made a distance: a resolved shape keeps it. */
   void distance(double area, double new_area, double arclength, double new_arclength) const;
 
