@@ -35,9 +35,9 @@ namespace
     if (changes.empty())
       return;
     std::string message = "--resume: the run in " + checkpoint + " was computed with other parameters:";
-    for (const std::string &change : changes)
-      message += "\n  " + change;
-    throw UserError(message + "\nOnly 'End time', 'Output directory' and the sections 'Output' and "
+    for (unsigned int i = 0; i < changes.size(); ++i)
+      message += (i == 0 ? " " : "; ") + changes[i];
+    throw UserError(message + ". Only 'End time', 'Output directory' and the sections 'Output' and "
                               "'Checkpoint' may change. Set these back, or start a new run with another "
                               "--output.");
   }
@@ -74,7 +74,7 @@ RunState<dim> Checkpoints<dim>::load(std::vector<std::string> &notes)
           std::string message = "--resume: there is no " + std::string(notes.empty() ? "" : "usable ") +
                                 "checkpoint in '" + parameters.output_directory + "'.";
           for (const std::string &note : notes)
-            message += "\n  " + note;
+            message += " " + note;
           throw UserError(message + " Start the run anew without --resume, or name the right directory with "
                                     "--output.");
         }

@@ -180,8 +180,9 @@ int VesicleProblem<dim>::run()
     }
     catch (const SimulationError &error)
     {
-      save_last_state(error.what());
-      throw;
+      const std::string reason = error.what() + end_of_the_model();
+      save_last_state(reason);
+      throw SimulationError(reason);
     }
     catch (const std::exception &error)
     {
@@ -199,6 +200,20 @@ int VesicleProblem<dim>::run()
   }
   print_timers();
   return 0;
+}
+
+template <int dim>
+std::string VesicleProblem<dim>::end_of_the_model() const
+{
+  // Concentrations are relative to one; the composition f / total loses its meaning long before zero.
+  constexpr double vanishing = 1e-2;
+  if (system->get_surface() == nullptr || row.f_total_min > vanishing)
+    return "";
+  return " The total concentration has fallen to " + rounded(row.f_total_min) +
+         " on a part of the membrane: the model ends where it reaches zero. Choose another "
+         "'Membrane/Regularisation "
+         "of the total concentration/Model', such as 'compressibility', or a larger coefficient "
+         "(doc/model.md).";
 }
 
 template <int dim>

@@ -33,6 +33,8 @@ const std::string short_paper_run =
 const std::vector<ShippedCase> shipped_cases = {
     {"examples/quick.prm", " --set 'End time=0.008'", 4, true},
     {"examples/bending.prm", " --set 'End time=0.004'", 4, true},
+    {"examples/locomotion.prm", " --set 'End time=0.008' --set 'Mesh/Phase boundary level=5'", 4, true},
+    {"examples/wrinkling.prm", " --set 'End time=0.008' --set 'Mesh/Membrane level=5'", 4, false},
     {"examples/bud.prm", " --set 'End time=0.008' --set 'Mesh/Finest level=5'", 4, true},
     {"paper/unconstrained_ellipse.prm", short_paper_run, 4, true},
     {"paper/constrained_ellipse.prm", short_paper_run, 4, true},

@@ -19,7 +19,7 @@ import sys
 import time
 
 TOP = pathlib.Path(__file__).resolve().parents[2]
-COARSE = ["Mesh/Membrane level=5", "Mesh/Phase boundary level=5", "Time stepping/Adaptive=false",
+COARSE = ["Mesh/Membrane level=4", "Mesh/Phase boundary level=4", "Time stepping/Adaptive=false",
           "Output/Progress line=false"]
 
 
@@ -85,7 +85,7 @@ def main():
     parser.add_argument("executable")
     parser.add_argument("case", nargs="?", default=str(TOP / "parameters/paper/constrained_elongated_ellipse.prm"))
     parser.add_argument("--steps", type=int, default=5000)
-    parser.add_argument("--step-size", type=float, default=0.003)
+    parser.add_argument("--step-size", type=float, default=0.0003)
     parser.add_argument("--output", default="results/soak")
     parser.add_argument("--set", action="append", default=[], help="as for gemmule; replaces a setting of ours")
     parser.add_argument("--growth", type=float, default=3.0,

@@ -53,6 +53,8 @@ private:
   void announce() const;
   /** One accepted step, however many attempts that takes. */
   void make_step();
+  /** What to add to the reason of a failure if the total concentration has all but vanished; else nothing. */
+  std::string end_of_the_model() const;
   void report();
   void write_output_if_due(bool at_end);
   /** Before the run ends with an error: what was accepted last goes to the disk. */
