@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "support/run_program.h"
+#include "support/statistics_table.h"
 
 using namespace Gemmule::Testing;
 
@@ -83,22 +84,10 @@ using Table = std::map<std::string, std::vector<double>>;
 
 Table read_table(const std::string &path)
 {
-  std::ifstream file(path);
   Table table;
-  std::vector<std::string> names;
-  std::string line, entry;
-  std::getline(file, line);
-  for (std::istringstream header(line); std::getline(header, entry, ',');)
-    names.push_back(entry);
-  while (std::getline(file, line))
-  {
-    std::istringstream row(line);
-    for (const auto &name : names)
-    {
-      std::getline(row, entry, ',');
+  for (const auto &[name, entries] : read_text_table(path))
+    for (const auto &entry : entries)
       table[name].push_back(std::stod(entry));
-    }
-  }
   return table;
 }
 

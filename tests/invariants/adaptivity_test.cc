@@ -16,14 +16,6 @@ namespace
 {
 using Rows = std::vector<StatisticsRow>;
 
-double largest_drift(const Rows &rows, double StatisticsRow::*figure)
-{
-  double drift = 0.;
-  for (const auto &row : rows)
-    drift = std::max(drift, std::abs(row.*figure / (rows.front().*figure) - 1.));
-  return drift;
-}
-
 /** A coarse case, where walls and other membranes are nearer than its cells. */
 AllParameters coarse_case_with_tension(const std::string &level_set)
 {

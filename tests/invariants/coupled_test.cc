@@ -13,15 +13,6 @@ namespace
 {
 using Rows = std::vector<StatisticsRow>;
 
-/** Largest relative change over a run of one figure of the statistics. */
-double largest_drift(const Rows &rows, double StatisticsRow::*figure)
-{
-  double drift = 0.;
-  for (const auto &row : rows)
-    drift = std::max(drift, std::abs(row.*figure / (rows.front().*figure) - 1.));
-  return drift;
-}
-
 /** Dissipation of a row of the statistics. */
 double dissipation(const StatisticsRow &row)
 {

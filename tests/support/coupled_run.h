@@ -82,4 +82,13 @@ inline std::vector<StatisticsRow> run_with_step_control(const AllParameters &par
   }
   return rows;
 }
+
+/** Largest relative change over a run of one figure of the statistics. */
+inline double largest_drift(const std::vector<StatisticsRow> &rows, double StatisticsRow::*figure)
+{
+  double drift = 0.;
+  for (const auto &row : rows)
+    drift = std::max(drift, std::abs(row.*figure / (rows.front().*figure) - 1.));
+  return drift;
+}
 } // namespace Gemmule::Testing
