@@ -12,8 +12,7 @@ namespace
   SymmetricTensor<2, dim> tangential_stress(const CutCell<dim> &cell, const unsigned int q,
                                             const double curvature, const double moment, const double energy)
   {
-    SymmetricTensor<2, dim> stress =
-        (energy - moment * curvature / (dim - 1)) * unit_symmetric_tensor<dim>();
+    SymmetricTensor<2, dim> stress = (energy - moment * curvature / (dim - 1)) * unit_symmetric_tensor<dim>();
     if constexpr (dim == 3)
     {
       const auto phi = evaluate_polynomial<dim, 3, 2>(cell.level_set, cell.surface_points[q]);

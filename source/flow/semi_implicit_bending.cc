@@ -130,9 +130,10 @@ void SemiImplicitBending<dim>::add_rhs(const CutGeometry<dim> &geometry, const d
   }
   filter.factorise();
 
-  // u_old comes from another mesh position, with errors as short as a cell whose second derivatives are large, and
-  // the flow would take them over as if they were its own past. Hence z_old is filtered, by 2F - F^2 with
-  // F = (1 - h^2 Laplace_s)^{-1}: waves of many cells stay as they are up to (h k)^4, those of a cell have no past.
+  // u_old comes from another mesh position, with errors as short as a cell whose second derivatives are
+  // large, and the flow would take them over as if they were its own past. Hence z_old is filtered, by 2F -
+  // F^2 with F = (1 - h^2 Laplace_s)^{-1}: waves of many cells stay as they are up to (h k)^4, those of a
+  // cell have no past.
   std::vector<double> once = old;
   filter.solve(once);
   once = mass.apply_local_part(once);

@@ -95,8 +95,8 @@ void StokesSolver<dim>::solve(const MembraneScalar &tension, const ArclengthPena
                             communicator);
     const double lambda = penalty->stiffness, dt = penalty->time_step;
     if (std::isinf(lambda))
-      // On a circle no tension changes the length: the flow of a unit tension is round-off there, as is what it
-      // would have to balance.
+      // On a circle no tension changes the length: the flow of a unit tension is round-off there, as is what
+      // it would have to balance.
       penalty_tension = (penalty->excess / dt + rate_without) /
                         std::max(-rate_of_unit, 1e-9 * geometry->measure() / capillary_number);
     else

@@ -96,7 +96,8 @@ void CutGeometry<dim>::reinit(const DoFHandler<dim> &dof_handler, const Vector &
     const unsigned int index = cell->active_cell_index();
     const double h = cell->extent_in_direction(0);
     cell->get_dof_indices(dofs);
-    // A zero at a node would be cut or not by round-off, differently in the cells that share it: move it outside.
+    // A zero at a node would be cut or not by round-off, differently in the cells that share it: move it
+    // outside.
     const double tiny = 1e-10 * h;
     for (unsigned int i = 0; i < cell_level_set.nodal.size(); ++i)
     {

@@ -89,8 +89,7 @@ double MembraneMotion<dim>::fit_measure(const MembraneCloud<dim> &cloud, const d
     const auto phi = evaluate_polynomial<dim, 3, 2>(patch.level_set, p.unit_point);
     const double norm = phi.gradient.norm();
     const Tensor<1, dim> n = phi.gradient / norm;
-    total_curvature +=
-        cloud.weights[i] * (trace(phi.hessian) - n * (phi.hessian * n)) / (norm * patch.size);
+    total_curvature += cloud.weights[i] * (trace(phi.hessian) - n * (phi.hessian * n)) / (norm * patch.size);
   }
 
   // The oriented element of the moved membrane is the cofactor of F = grad(x + d) times that of the old one.

@@ -32,8 +32,7 @@ BendingModel::Local BendingModel::evaluate(const double curvature, const double 
   local.moment = local.rigidity * d;
   local.energy = 0.5 * local.moment * d;
   const double by_weight = 0.5 * rigidity_jump * d * d - local.moment * curvature_jump;
-  const double by_weight_twice =
-      (local.rigidity * curvature_jump - 2. * rigidity_jump * d) * curvature_jump;
+  const double by_weight_twice = (local.rigidity * curvature_jump - 2. * rigidity_jump * d) * curvature_jump;
   local.by_composition = by_weight * s_c;
   local.by_composition_twice = by_weight_twice * s_c * s_c + by_weight * s_cc;
   return local;

@@ -33,8 +33,8 @@ MembraneModel::ChemicalPotential MembraneModel::local_chemical_potential(const d
   return {g.f + mach * gamma.f, g.ff + mach * gamma.ff};
 }
 
-MembraneModel::ChemicalPotential
-MembraneModel::local_chemical_potential(const double f, const double fbar, const double curvature) const
+MembraneModel::ChemicalPotential MembraneModel::local_chemical_potential(const double f, const double fbar,
+                                                                         const double curvature) const
 {
   auto potential = local_chemical_potential(f, fbar);
   const auto bending = bending_model.evaluate(curvature, f / fbar);

@@ -83,8 +83,8 @@ void MembraneBending<dim>::compute_curvature(const CutGeometry<dim> &geometry,
     {
       const CutCell<dim> &cell = geometry.cut_cells()[k];
       for (unsigned int q = 0; q < cell.surface_points.size(); ++q)
-        curvature_at_points[k][q] += TraceSpace<dim>::Basis::value(component[k], cell.surface_points[q]) *
-                                     cell.normals[q][c];
+        curvature_at_points[k][q] +=
+            TraceSpace<dim>::Basis::value(component[k], cell.surface_points[q]) * cell.normals[q][c];
     }
   }
 }
@@ -108,9 +108,8 @@ void MembraneBending<dim>::compute_moment(const TraceField<dim> *const concentra
     {
       point.reinit(cell, q);
       const double composition =
-          concentration != nullptr
-              ? point.value((*concentration)[k]) / point.value((*total_concentration)[k])
-              : 0.;
+          concentration != nullptr ? point.value((*concentration)[k]) / point.value((*total_concentration)[k])
+                                   : 0.;
       const auto bending = model.evaluate(curvature_at_points[k][q], composition);
       moments[k][q] = bending.moment;
       energies[k][q] = bending.energy;

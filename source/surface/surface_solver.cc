@@ -77,9 +77,10 @@ MembranePointValues SurfaceSolver<dim>::tension(const MembranePointValues *const
       const double value = point.value(f), total_value = point.value(total[k]),
                    potential = point.value(phases.chemical_potential()[k]),
                    gradient_square = point.surface_gradient(f).norm_square();
-      sigma[k].push_back(curvature != nullptr
-                             ? model.tension(value, total_value, potential, gradient_square, (*curvature)[k][q])
-                             : model.tension(value, total_value, potential, gradient_square));
+      sigma[k].push_back(
+          curvature != nullptr
+              ? model.tension(value, total_value, potential, gradient_square, (*curvature)[k][q])
+              : model.tension(value, total_value, potential, gradient_square));
     }
   return sigma;
 }

@@ -27,7 +27,10 @@ Parameters::Bending two_phases()
   return parameters;
 }
 
-double varying_composition(const Point<2> &p) { return 0.5 + 0.4 * std::sin(2. * p[0] + p[1]); }
+double varying_composition(const Point<2> &p)
+{
+  return 0.5 + 0.4 * std::sin(2. * p[0] + p[1]);
+}
 
 /** Displacements with tangential and normal parts, and one that is far from a rigid motion everywhere. */
 const std::array<SurfaceHarness::VectorField, 3> test_fields = {
@@ -126,8 +129,8 @@ TEST(ParallelBending, CircleOfSpontaneousCurvatureIsFreeOfForce)
       flow.solver.solve(flow.tension, nullptr, &force);
       speeds[i] = flow.error([](const Point<2> &) { return Tensor<1, 2>(); });
     }
-    // The interpolated circle has kinks of order h^3 at the faces: a curvature error of order h^2 as short as a
-    // cell, and velocities of order h.
+    // The interpolated circle has kinks of order h^3 at the faces: a curvature error of order h^2 as short as
+    // a cell, and velocities of order h.
     EXPECT_GT(std::log2(speeds[0] / speeds[3]) / 3., 1.1) << speeds[0] << ' ' << speeds[3];
     EXPECT_LT(speeds[3], 2.5e-3) << "in units of rigidity / R^3 = 11";
   }
@@ -145,7 +148,8 @@ double spheroid_energy(const double a, const double c, const double spontaneous)
     const double t = dealii::numbers::PI * (i + 0.5) / n;
     const double q = std::hypot(a * std::cos(t), c * std::sin(t));
     const double curvature = a * c / (q * q * q) + c / (a * q) - spontaneous;
-    sum += dealii::numbers::PI / n * 2. * dealii::numbers::PI * a * std::sin(t) * q * 0.5 * curvature * curvature;
+    sum += dealii::numbers::PI / n * 2. * dealii::numbers::PI * a * std::sin(t) * q * 0.5 * curvature *
+           curvature;
   }
   return sum;
 }
@@ -169,8 +173,9 @@ TEST(ParallelBending, ForceIsTheVariationOfTheEnergyInThreeDimensions)
         [=](const Point<3> &p)
         {
           const double r = std::sqrt((p[0] * p[0] + p[1] * p[1]) / (a * a) + p[2] * p[2] / (c * c));
-          return 0.5 * (r * r - 1.) / std::sqrt((p[0] * p[0] + p[1] * p[1]) / std::pow(a, 4) +
-                                                p[2] * p[2] / std::pow(c, 4) + 1e-2);
+          return 0.5 * (r * r - 1.) /
+                 std::sqrt((p[0] * p[0] + p[1] * p[1]) / std::pow(a, 4) + p[2] * p[2] / std::pow(c, 4) +
+                           1e-2);
         }));
     CutGeometry<3> geometry;
     geometry.reinit(mesh.dof_handler, mesh.level_set);
@@ -197,8 +202,8 @@ TEST(ParallelBending, ForceIsTheVariationOfTheEnergyInThreeDimensions)
             velocity[cell].nodal[node][d] = directions[k][d] * x[d];
         }
       }
-      const double value = dealii::Utilities::MPI::sum(BendingForce<3>(bending, geometry).power(force, velocity),
-                                                       MPI_COMM_WORLD);
+      const double value = dealii::Utilities::MPI::sum(
+          BendingForce<3>(bending, geometry).power(force, velocity), MPI_COMM_WORLD);
       errors[i][k] = std::abs(value / exact[k] - 1.);
     }
   }

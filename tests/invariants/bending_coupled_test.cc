@@ -13,8 +13,8 @@ namespace
 constexpr double radius = 0.5;
 
 /**
- * A circle with a small mode k = 2 or 3 on cells of 1/32, in a box so large that its walls matter little: they
- * slow the mode down by about 2.4 (R/D)^2 for k = 2 and 11 (R/D)^4 for k = 3, D their distance.
+ * A circle with a small mode k = 2 or 3 on cells of 1/32, in a box so large that its walls matter little:
+ * they slow the mode down by about 2.4 (R/D)^2 for k = 2 and 11 (R/D)^4 for k = 3, D their distance.
  */
 AllParameters perturbed_circle(const unsigned int mode, const double amplitude)
 {
@@ -56,8 +56,10 @@ double decay_rate(const CoupledSystem<2> &system, const unsigned int mode)
 {
   const auto membrane = sample_membrane(system);
   return -mode_of(membrane, mode,
-                  [&](const unsigned int i)
-                  { return membrane.velocity[i] * dealii::Tensor<1, 2>(membrane.points[i]) / membrane.points[i].norm(); }) /
+                  [&](const unsigned int i) {
+                    return membrane.velocity[i] * dealii::Tensor<1, 2>(membrane.points[i]) /
+                           membrane.points[i].norm();
+                  }) /
          mode_of(membrane, mode, [&](const unsigned int i) { return membrane.points[i].norm(); });
 }
 
@@ -115,7 +117,8 @@ TEST(ParallelCoupledBending, StepsAreNotLimitedByTheMesh)
   parameters.bending.rigidity_0 = 0.01;
   CoupledSystem<2> system(parameters, MPI_COMM_WORLD);
   system.initialise();
-  const double initial = amplitude_of(system, 3), rate = 0.01 * 3. * 7.5 / (4. * std::pow(radius, 3)), dt = 0.1;
+  const double initial = amplitude_of(system, 3), rate = 0.01 * 3. * 7.5 / (4. * std::pow(radius, 3)),
+               dt = 0.1;
   for (unsigned int i = 0; i < 20; ++i)
   {
     system.try_step(dt);
@@ -145,7 +148,8 @@ TEST(ParallelCoupledBending, CurvatureStaysSmoothWhileACircleIsCarriedThroughThe
       {
         const auto phi = evaluate_polynomial<2, 3, 2>(cell.level_set, cell.surface_points[q]);
         const auto n = cell.normals[q];
-        const double pointwise = (trace(phi.hessian) - n * (phi.hessian * n)) / (phi.gradient.norm() * cell.size);
+        const double pointwise =
+            (trace(phi.hessian) - n * (phi.hessian * n)) / (phi.gradient.norm() * cell.size);
         unsigned int k = 0;
         for (const double curvature : {system.get_bending()->curvature()[c][q], pointwise})
         {
@@ -158,7 +162,8 @@ TEST(ParallelCoupledBending, CurvatureStaysSmoothWhileACircleIsCarriedThroughThe
     }
     for (const unsigned int k : {0, 2})
     {
-      result[k] = std::sqrt(dealii::Utilities::MPI::sum(result[k], MPI_COMM_WORLD) / system.get_geometry().measure());
+      result[k] =
+          std::sqrt(dealii::Utilities::MPI::sum(result[k], MPI_COMM_WORLD) / system.get_geometry().measure());
       result[k + 1] = dealii::Utilities::MPI::max(result[k + 1], MPI_COMM_WORLD);
     }
     return result;

@@ -59,7 +59,8 @@ struct BendingOnCurve
       for (unsigned int i = 0; i < velocity[k].nodal.size(); ++i)
         velocity[k].nodal[i] = v(cell.physical(TensorLagrange<2, 2>::node(i)));
     }
-    return Utilities::MPI::sum(BendingForce<2>(bending, harness.geometry).power(force, velocity), MPI_COMM_WORLD);
+    return Utilities::MPI::sum(BendingForce<2>(bending, harness.geometry).power(force, velocity),
+                               MPI_COMM_WORLD);
   }
 
   /** L2 error of the curvature. */
@@ -128,7 +129,8 @@ public:
   double variation(const SurfaceHarness::VectorField &v) const
   {
     const double eps = 1e-4;
-    return (8. * (energy(eps, v) - energy(-eps, v)) - (energy(2. * eps, v) - energy(-2. * eps, v))) / (12. * eps);
+    return (8. * (energy(eps, v) - energy(-eps, v)) - (energy(2. * eps, v) - energy(-2. * eps, v))) /
+           (12. * eps);
   }
 
   /** Curvature of the ellipse at the point closest in angle; exact on it. */

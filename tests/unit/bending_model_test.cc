@@ -53,7 +53,8 @@ TEST_P(BendingEnergy, DerivativesMatchDifferences)
       EXPECT_NEAR(local.by_composition, (east.energy - west.energy) / (2. * s), 1e-7);
       EXPECT_NEAR(local.by_composition_twice, (east.by_composition - west.by_composition) / (2. * s), 1e-7);
       EXPECT_NEAR(local.moment,
-                  (model.evaluate(curvature + s, c).energy - model.evaluate(curvature - s, c).energy) / (2. * s),
+                  (model.evaluate(curvature + s, c).energy - model.evaluate(curvature - s, c).energy) /
+                      (2. * s),
                   1e-8);
     }
 }
@@ -94,9 +95,9 @@ TEST(BendingOfTheMembrane, LeavesTheTensionOfAUniformStateAlone)
   const MembraneModel model(membrane, {}, two_phases(Parameters::Interpolation::smooth_step));
   const double f = 0.4, t = 1.1, curvature = 2.5;
   const double without = model.tension(f, t, model.local_chemical_potential(f, t).value, 0.);
-  EXPECT_NEAR(model.tension(f, t, model.local_chemical_potential(f, t, curvature).value, 0., curvature), without,
-              1e-13);
-  EXPECT_GT(std::abs(model.tension(f, t, model.local_chemical_potential(f, t, curvature).value, 0.) - without),
-            0.1)
+  EXPECT_NEAR(model.tension(f, t, model.local_chemical_potential(f, t, curvature).value, 0., curvature),
+              without, 1e-13);
+  EXPECT_GT(
+      std::abs(model.tension(f, t, model.local_chemical_potential(f, t, curvature).value, 0.) - without), 0.1)
       << "the test would not notice the missing term";
 }

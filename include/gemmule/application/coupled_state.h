@@ -26,8 +26,8 @@ struct CoupledState
 
   std::vector<MeshCell<dim>> mesh; ///< refinement has hysteresis, so that the membrane does not imply it
   unsigned int steps_since_remeshing = 0;
-  unsigned int lowered_levels = 0;  ///< by the limit on the number of cells
-  unsigned int n_steps_on_mesh = 0; ///< accepted ones since the last change of the mesh
+  unsigned int lowered_levels = 0;           ///< by the limit on the number of cells
+  unsigned int n_steps_on_mesh = 0;          ///< accepted ones since the last change of the mesh
   std::vector<CellSample<dim>> flow_samples; ///< error of the current flow, if a criterion needs it
   /** Of all cells: far from the membrane the level set stays from the last change of the mesh. */
   std::vector<LevelSetCell<dim>> level_set;

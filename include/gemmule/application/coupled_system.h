@@ -139,7 +139,7 @@ private:
   double last_area_correction = 0.;
   unsigned int steps_since_remeshing = 0;
   unsigned int n_mesh_changes = 0;
-  unsigned int n_steps_on_mesh = 0; ///< accepted ones since the last change
+  unsigned int n_steps_on_mesh = 0;          ///< accepted ones since the last change
   std::vector<CellSample<dim>> flow_samples; ///< of the current state; empty if no criterion needs them
 
   MembraneSnapshot<dim> current, previous, trial;

@@ -9,7 +9,8 @@ namespace Gemmule
  * Force of the bending energy E_b = int w(kappa, c) on the fluid: -(1/Ca) dE_b[<v>] with the variation of
  * E_b under the displacement v at fixed composition of each material point (design section 6, doc/model.md),
  *
- *   dE_b[v] = int grad_s m . (grad_s v)^T n - m grad_s n : grad_s v + w div_s v,   m = w_kappa = k (kappa - kappa_0),
+ *   dE_b[v] = int grad_s m . (grad_s v)^T n - m grad_s n : grad_s v + w div_s v,   m = w_kappa = k (kappa -
+ * kappa_0),
  *
  * in which only first derivatives of v and of the trace field m occur. In 2D grad_s n is kappa times the
  * tangential projection; in 3D its traceless part comes from the second derivatives of the level set.
@@ -20,10 +21,12 @@ class BendingForce
 public:
   using Velocity = std::vector<MembraneVelocity<dim>>;
 
-  /** @param bending curvature and moment on the membrane of @p geometry; both must stay as long as this is used. */
+  /** @param bending curvature and moment on the membrane of @p geometry; both must stay as long as this is
+   * used. */
   BendingForce(const MembraneBending<dim> &bending, const CutGeometry<dim> &geometry);
 
-  /** Adds this rank's part of -(1/Ca) dE_b[<v>]. @p force holds the tangential gradients of the same geometry. */
+  /** Adds this rank's part of -(1/Ca) dE_b[<v>]. @p force holds the tangential gradients of the same
+   * geometry. */
   void add_rhs(const MembraneForce<dim> &force, double capillary_number, const FluidPair &fluids,
                const std::vector<StokesCellElement> &cut_cell_elements, const ElementSystem &system,
                std::vector<double> &rhs) const;

@@ -11,14 +11,14 @@ namespace Gemmule
  *   (S dt k / Ca) int grad_s z . (grad_s <v>)^T n,     int z y + h int_band (n.grad z)(n.grad y)
  *                                                      = int grad_s y . (grad_s w)^T n   for all y,
  *
- * w = <u> - u_old as in SemiImplicitTension: S dt times the linearised bending stiffness, since z is the rate of
- * change of the curvature in the same trace space in which the bending force has it. With the largest
+ * w = <u> - u_old as in SemiImplicitTension: S dt times the linearised bending stiffness, since z is the rate
+ * of change of the curvature in the same trace space in which the bending force has it. With the largest
  * rigidity k the damping is as strong as needed everywhere. z enters the flow system as an additional
  * unknown on the cut cells, scaled with sqrt(S dt k / Ca), which keeps the matrix symmetric.
  *
- * The part of u_old is filtered by 2F - F^2, F = (1 - h^2 Laplace_s)^{-1}: waves of many cells keep their past up to
- * (h k)^4, those of a cell, which are mostly errors of the transfer between two mesh positions, lose it. A time
- * step is then not limited by h^3 (doc/method.md).
+ * The part of u_old is filtered by 2F - F^2, F = (1 - h^2 Laplace_s)^{-1}: waves of many cells keep their
+ * past up to (h k)^4, those of a cell, which are mostly errors of the transfer between two mesh positions,
+ * lose it. A time step is then not limited by h^3 (doc/method.md).
  */
 template <int dim>
 struct SemiImplicitBending
@@ -33,8 +33,8 @@ struct SemiImplicitBending
   unsigned int n_unknowns() const { return space->n_unknowns(); }
 
   /**
-   * Adds one element per cut cell, with the unknowns of its flow followed by those of z, to a system to which the
-   * elements of the flow have been added. @p first_unknown: number of flow unknowns.
+   * Adds one element per cut cell, with the unknowns of its flow followed by those of z, to a system to which
+   * the elements of the flow have been added. @p first_unknown: number of flow unknowns.
    */
   void add_elements(unsigned int first_unknown, const std::vector<StokesCellElement> &cut_cell_elements,
                     ElementSystem &system);

@@ -47,7 +47,8 @@ public:
    * @param boundary_velocity u_infinity, dim components, its time set by the caller
    * @param semi_implicit, semi_implicit_bending damping of the fast shape modes, nullptr for none; what they
    * point to must stay as long as solve() is used
-   * Throws SimulationError (membrane at the boundary, factorisation) and UserError (u_infinity with net flux).
+   * Throws SimulationError (membrane at the boundary, factorisation) and UserError (u_infinity with net
+   * flux).
    */
   void prepare(const CutGeometry<dim> &geometry, const dealii::Function<dim> &boundary_velocity,
                const SemiImplicitTension<dim> *semi_implicit = nullptr,
@@ -70,8 +71,8 @@ public:
   double constraint_tension() const { return penalty_tension; }
   /** The part of membrane_velocity() per unit of the constraint's tension; after a solve() with a penalty. */
   const std::vector<MembraneVelocity<dim>> &tension_velocity() const { return unit_tension_velocity; }
-  /** -int sigma_total div_s <u>, less what bending takes up: equals viscous_dissipation() up to discretisation if the boundary is at
-   * rest. */
+  /** -int sigma_total div_s <u>, less what bending takes up: equals viscous_dissipation() up to
+   * discretisation if the boundary is at rest. */
   double membrane_work() const { return work; }
   /** int <u>.n: zero but for the error of the quadrature. */
   double net_flux() const { return flux; }

@@ -43,10 +43,11 @@ public:
   dealii::Tensor<1, dim> displacement(const ClosestPoint<dim> &p) const;
 
   /**
-   * Adds to u* the velocity due to a uniform tension (field tension_velocity) such that the moved membrane has
-   * the length (area in 3D) @p measure, once a shift along its normal has made its volume @p volume: what the
-   * extrapolation of the velocity lacks to keep the arclength. Newton's method on integrals over @p cloud,
-   * the quadrature points of the old membrane. Does nothing where a tension hardly changes the length (circle).
+   * Adds to u* the velocity due to a uniform tension (field tension_velocity) such that the moved membrane
+   * has the length (area in 3D) @p measure, once a shift along its normal has made its volume @p volume: what
+   * the extrapolation of the velocity lacks to keep the arclength. Newton's method on integrals over @p
+   * cloud, the quadrature points of the old membrane. Does nothing where a tension hardly changes the length
+   * (circle).
    * @return the added tension
    */
   double fit_measure(const MembraneCloud<dim> &cloud, double measure, double volume);

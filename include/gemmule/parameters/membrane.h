@@ -77,7 +77,8 @@ enum class Interpolation
   smooth_step
 };
 
-/** Section "Membrane/Bending": Helfrich energy (k/2)(curvature - spontaneous curvature)^2 (design, section 6). */
+/** Section "Membrane/Bending": Helfrich energy (k/2)(curvature - spontaneous curvature)^2 (design, section
+ * 6). */
 struct Bending
 {
   /** k of the phases with composition 0 and 1. */

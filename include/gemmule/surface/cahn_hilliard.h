@@ -23,10 +23,10 @@ namespace Parameters
  *     + (1/Pe) int_n grad_s mu.grad_s v + (rho/h) [s(f, v) + (1/Pe) s(mu, v)] = 0
  *   int_n mu w - int_n (g_f + M gamma_f (+ M w_f)) w - C^2 int_n grad_s f.grad_s w - C^2 (rho/h) s(f, w) = 0
  *
- * with s(a, b) = int_band (n.grad a)(n.grad b), and w the bending energy, if there is one. Fully implicit, hence E non-increasing for time steps that
- * resolve the instability of the mixed state. Everything but g_f + M gamma_f is linear, so that its
- * linearisation error, known at each quadrature point, is the residual of the whole system, and the mass is
- * exact after every iteration.
+ * with s(a, b) = int_band (n.grad a)(n.grad b), and w the bending energy, if there is one. Fully implicit,
+ * hence E non-increasing for time steps that resolve the instability of the mixed state. Everything but g_f +
+ * M gamma_f is linear, so that its linearisation error, known at each quadrature point, is the residual of
+ * the whole system, and the mass is exact after every iteration.
  */
 template <int dim>
 class CahnHilliard
@@ -81,7 +81,7 @@ private:
 
   PointValues total_at_points, f_at_points;
   const PointValues *curvature_at_points = nullptr; ///< of the present call; nullptr without bending
-  PointValues slope;     ///< d(g_f + M gamma_f)/df where it was linearised
-  PointValues intercept; ///< g_f + M gamma_f - slope f at the present f
+  PointValues slope;                                ///< d(g_f + M gamma_f)/df where it was linearised
+  PointValues intercept;                            ///< g_f + M gamma_f - slope f at the present f
 };
 } // namespace Gemmule
