@@ -38,6 +38,12 @@ namespace
     }
     return nearest;
   }
+
+  /** Sorts from left to right and, where that differs by @p round_off only, upwards. */
+  std::pair<std::int64_t, double> place_of(const Point<2> &p, const double round_off)
+  {
+    return {std::llround(p[0] / round_off), p[1]};
+  }
 } // namespace
 
 std::vector<std::vector<unsigned int>> order_closed_curves(const std::vector<Point<2>> &points,
@@ -120,6 +126,15 @@ std::vector<std::vector<unsigned int>> order_closed_curves(const std::vector<Poi
       else
         curves[place.first].insert(curves[place.first].begin() + place.second + 1, i);
     }
+
+  // A symmetric membrane has two leftmost points: which of them is first must not hang on the last digit.
+  const double round_off = 1e-6 * *std::max_element(spacing.begin(), spacing.end());
+  const auto comes_before = [&](const unsigned int i, const unsigned int j)
+  { return place_of(points[i], round_off) < place_of(points[j], round_off); };
+  for (auto &curve : curves)
+    std::rotate(curve.begin(), std::min_element(curve.begin(), curve.end(), comes_before), curve.end());
+  std::sort(curves.begin(), curves.end(),
+            [&](const auto &a, const auto &b) { return comes_before(a.front(), b.front()); });
   return curves;
 }
 } // namespace Gemmule

@@ -51,6 +51,34 @@ TEST(CurveOrder, FindsTwoCirclesInShuffledUnevenPoints)
   }
 }
 
+TEST(CurveOrder, BeginsAtTheSamePointWhateverTheRoundOff)
+{
+  // Two circles of the same abscissa, symmetric about the axis: all extreme points come in pairs.
+  const unsigned int n = 40;
+  std::vector<Point<2>> points;
+  std::vector<Tensor<1, 2>> normals;
+  for (const double y : {0.6, -0.6})
+    for (unsigned int i = 0; i < n; ++i)
+    {
+      const double angle = 2. * numbers::PI * (i + 0.5) / n;
+      normals.push_back(Tensor<1, 2>({std::cos(angle), std::sin(angle)}));
+      points.push_back(Point<2>(0., y) + 0.5 * normals.back());
+    }
+  const std::vector<double> spacing(points.size(), numbers::PI / n);
+  std::mt19937 generator(3);
+  std::uniform_real_distribution<double> noise(-1e-13, 1e-13);
+  for (unsigned int repetition = 0; repetition < 10; ++repetition)
+  {
+    auto disturbed = points;
+    for (auto &p : disturbed)
+      p[0] += noise(generator);
+    const auto curves = order_closed_curves(disturbed, normals, spacing);
+    ASSERT_EQ(curves.size(), 2u);
+    EXPECT_EQ(curves[0].front(), n + n / 2); // the lower one of the left points, of the lower circle
+    EXPECT_EQ(curves[1].front(), n / 2);
+  }
+}
+
 TEST(CurveOrder, OfNothingIsNothing)
 {
   EXPECT_TRUE(order_closed_curves({}, {}, {}).empty());
