@@ -61,7 +61,7 @@ TEST(Parameters, EveryKindOfValueSurvivesPrintingAndParsing)
   AllParameters original;
   original.end_time = 1. / 3.;
   original.output_directory = "some where";
-  original.random_seed = 4294967295u;
+  original.checkpoint.steps_between = 4294967295u;
   original.domain.lower_corner = {-2. / 3., -1.};
   original.domain.upper_corner = {1. / 3., 1.};
   original.membrane.level_set = "if(x<=0, x^2, 2*x^2) + y^2 - 0.01";
@@ -77,7 +77,7 @@ TEST(Parameters, EveryKindOfValueSurvivesPrintingAndParsing)
   read.parse(directory.write("case.prm", printed(original)));
   EXPECT_EQ(read.end_time, original.end_time);
   EXPECT_EQ(read.output_directory, original.output_directory);
-  EXPECT_EQ(read.random_seed, original.random_seed);
+  EXPECT_EQ(read.checkpoint.steps_between, original.checkpoint.steps_between);
   EXPECT_EQ(read.domain.lower_corner, original.domain.lower_corner);
   EXPECT_EQ(read.domain.upper_corner, original.domain.upper_corner);
   EXPECT_EQ(read.membrane.level_set, original.membrane.level_set);
