@@ -8,6 +8,7 @@
 #include <gemmule/mesh/box_mesh.h>
 #include <gemmule/parameters/errors.h>
 #include <gemmule/parameters/expression.h>
+#include <gemmule/parameters/raise_together.h>
 
 #include <algorithm>
 #include <cmath>
@@ -301,14 +302,21 @@ void CoupledSystem<dim>::solve_flow(const double time, const double dt,
   else
   {
     prescribed_tension->set_time(time);
+    std::string complaint;
     total_tension.resize(geometry.cut_cells().size());
     for (unsigned int c = 0; c < total_tension.size(); ++c)
     {
       const auto &cell = geometry.cut_cells()[c];
       total_tension[c].resize(cell.surface_points.size());
       for (unsigned int q = 0; q < cell.surface_points.size(); ++q)
-        total_tension[c][q] = prescribed_tension->value(cell.physical(cell.surface_points[q]));
+      {
+        const Point<dim> point = cell.physical(cell.surface_points[q]);
+        total_tension[c][q] = prescribed_tension->value(point);
+        if (!std::isfinite(total_tension[c][q]) && complaint.empty())
+          complaint = not_finite_complaint<dim>(*prescribed_tension, {point});
+      }
     }
+    Parameters::raise_together("Membrane/Prescribed tension", complaint, communicator);
   }
   boundary_velocity->set_time(time);
   MembraneScalar stiff_tension = total_tension;

@@ -189,6 +189,14 @@ int VesicleProblem<dim>::run()
       save_last_state(reason);
       throw SimulationError(reason);
     }
+    catch (const ParameterError &error)
+    {
+      // An expression of t that makes no sense any more. All ranks find it together, and no smaller step
+      // helps.
+      const std::string reason = parameters.located(error).what();
+      save_last_state(reason);
+      throw SimulationError(reason);
+    }
     catch (const std::exception &error)
     {
       // Of what kind it may be, with several ranks it need not have happened on all of them.

@@ -2,10 +2,12 @@
 #include <gemmule/parameters/all_parameters.h>
 #include <gemmule/parameters/errors.h>
 #include <gemmule/parameters/expression.h>
+#include <gemmule/parameters/raise_together.h>
 #include <gemmule/parameters/section.h>
 #include <gemmule/parameters/suggestion.h>
 
 #include <deal.II/base/function.h>
+#include <deal.II/base/mpi.h>
 #include <deal.II/base/parameter_handler.h>
 #include <deal.II/base/point.h>
 
@@ -261,5 +263,25 @@ TEST(Expression, NotFiniteAtAPoint)
   function->set_time(1.);
   const std::string message = message_of([&] { check_finite<2>(*function, {{2, 0}, {1, 5}}, "here"); });
   EXPECT_EQ(message.find("here: the expression has the value inf at (1, 5), t = 1."), 0u) << message;
+}
+
+TEST(Parameters, MessagesAreCompleteWhateverTheValueHolds)
+{
+  const std::string assignment("Output directory=a\0b", 20);
+  const std::string message = message_of([&] { AllParameters().parse("", {assignment}); });
+  EXPECT_EQ(
+      message,
+      "command line: 'Output directory=a\\x00b' holds the control character \\x00. Choose another value.");
+}
+
+TEST(ParallelErrors, WhatOneProcessFindsIsThrownByAll)
+{
+  const unsigned int rank = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
+  const unsigned int last = dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) - 1;
+  EXPECT_NO_THROW(raise_together("here", "", MPI_COMM_WORLD));
+  EXPECT_EQ(message_of([&] { raise_together("here", rank == last ? "wrong" : "", MPI_COMM_WORLD); }),
+            "here: wrong");
+  // Of several, that of the first.
+  EXPECT_EQ(message_of([&] { raise_together("here", std::to_string(rank), MPI_COMM_WORLD); }), "here: 0");
 }
 } // namespace Gemmule::Testing
