@@ -93,6 +93,7 @@ void exchange(ArrayExchange &archive, CoupledState<dim> &state)
   archive("area_0", state.area_0);
   archive("arclength_0", state.arclength_0);
   archive("capillary_step", state.capillary_step);
+  archive("grid_scale_rigidity", state.grid_scale_rigidity);
   archive.integers("mesh", state.mesh);
   archive("steps_since_remeshing", state.steps_since_remeshing);
   archive("lowered_levels", state.lowered_levels);

@@ -7,8 +7,6 @@
 #include <gemmule/geometry/membrane_transport.h>
 #include <gemmule/mesh/box_mesh.h>
 #include <gemmule/parameters/errors.h>
-#include <gemmule/parameters/expression.h>
-#include <gemmule/parameters/raise_together.h>
 
 #include <algorithm>
 #include <cmath>
@@ -28,9 +26,6 @@ namespace
   // A step that is wrong by more than this part of the area has lost the membrane, and is no case for a
   // correction.
   constexpr double largest_area_error = 0.05;
-  // S = 0.4 of the bare stiffness is enough for constant steps in the linear model. Steps that alternate by a
-  // factor of two need about 1.8, and the level set feels the shortest waves more than their trace tells.
-  constexpr double bending_stiffness_margin = 5.;
   // A multiplier keeps the arclength to this part of it.
   constexpr double arclength_tolerance = 1e-7;
   // A given reference arclength is approached by at most this part of it per step.
@@ -98,12 +93,8 @@ CoupledSystem<dim>::CoupledSystem(const AllParameters &parameters_, const MPI_Co
           }()),
       // Without the communicator: with it, every exception would be preceded by a banner on the screen.
       timer_output(std::cout, TimerOutput::never, TimerOutput::cpu_and_wall_times),
-      boundary_velocity(
-          make_function<dim>(parameters.domain.boundary_velocity, dim, "Domain/Boundary velocity")),
-      prescribed_tension(
-          make_function<dim>(parameters.membrane.prescribed_tension, 1, "Membrane/Prescribed tension")),
       model(parameters.membrane, parameters.regularisation, parameters.bending), level_set(triangulation),
-      flow(triangulation, parameters.fluid, parameters.flow),
+      membrane_flow(triangulation, parameters, model),
       adaptation(triangulation, parameters.mesh, phase_boundary_width(parameters.membrane))
 {
   if (parameters.membrane.tension_model == Parameters::TensionModel::phase_field)
@@ -121,7 +112,7 @@ void CoupledSystem<dim>::reinit_mesh()
     surface->reinit_mesh();
   if (bending)
     bending->reinit_mesh();
-  flow.reinit_mesh();
+  membrane_flow.reinit_mesh();
   steps_since_remeshing = 0;
 }
 
@@ -150,10 +141,11 @@ void CoupledSystem<dim>::initialise()
   std::vector<TransportedFields<dim>> at_rest(geometry.cut_cells().size());
   for (unsigned int c = 0; c < at_rest.size(); ++c)
     for (unsigned int i = 0; i < MembraneFields<dim>::n; ++i)
-      at_rest[c].previous_velocity[i] = raise_degree<dim>(flow.membrane_velocity()[c].nodal)[i];
-  InitialChecks<dim>(parameters).flow(flow.max_velocity());
+      at_rest[c].previous_velocity[i] = raise_degree<dim>(get_flow().membrane_velocity()[c].nodal)[i];
+  InitialChecks<dim>(parameters).flow(get_flow().max_velocity());
   current = take_snapshot(0., at_rest);
-  current_capillary_step = compute_capillary_time_step();
+  resist_negative_tension();
+  current_capillary_step = membrane_flow.capillary_time_step(geometry);
 }
 
 template <int dim>
@@ -183,7 +175,7 @@ void CoupledSystem<dim>::sample_flow()
   if (!adaptation.needs_cell_samples())
     return;
   TimerOutput::Scope scope(timer_output, "flow: error estimate");
-  const FlowErrorEstimate estimate = flow.estimate_error();
+  const FlowErrorEstimate estimate = get_flow().estimate_error();
   // A flow at rest has no error that would be worth a finer mesh.
   const double norm = std::max(std::sqrt(estimate.norm_square), 1e-12);
   std::vector<CellSample<dim>> own;
@@ -297,77 +289,8 @@ template <int dim>
 void CoupledSystem<dim>::solve_flow(const double time, const double dt,
                                     const CutCellVector<dim> *old_velocity)
 {
-  if (surface)
-    total_tension = surface->tension(bending ? &bending->curvature() : nullptr);
-  else
-  {
-    prescribed_tension->set_time(time);
-    std::string complaint;
-    total_tension.resize(geometry.cut_cells().size());
-    for (unsigned int c = 0; c < total_tension.size(); ++c)
-    {
-      const auto &cell = geometry.cut_cells()[c];
-      total_tension[c].resize(cell.surface_points.size());
-      for (unsigned int q = 0; q < cell.surface_points.size(); ++q)
-      {
-        const Point<dim> point = cell.physical(cell.surface_points[q]);
-        total_tension[c][q] = prescribed_tension->value(point);
-        if (!std::isfinite(total_tension[c][q]) && complaint.empty())
-          complaint = not_finite_complaint<dim>(*prescribed_tension, {point});
-      }
-    }
-    Parameters::raise_together("Membrane/Prescribed tension", complaint, communicator);
-  }
-  boundary_velocity->set_time(time);
-  MembraneScalar stiff_tension = total_tension;
-  std::unique_ptr<BendingForce<dim>> bending_force;
-  if (bending)
-  {
-    bending->compute_moment(surface ? &surface->concentration() : nullptr,
-                            surface ? &surface->total_concentration() : nullptr);
-    bending_force = std::make_unique<BendingForce<dim>>(*bending, geometry);
-    const MembraneScalar tension_of_bending = bending->tension();
-    for (unsigned int c = 0; c < stiff_tension.size(); ++c)
-      for (unsigned int q = 0; q < stiff_tension[c].size(); ++q)
-        stiff_tension[c][q] += std::max(tension_of_bending[c][q], 0.);
-  }
-  MembraneScalar dilatational_modulus(surface ? total_tension.size() : 0);
-  for (unsigned int c = 0; c < dilatational_modulus.size(); ++c)
-    for (const auto &q : geometry.cut_cells()[c].surface_points)
-      dilatational_modulus[c].push_back(
-          model.dilatational_modulus(TensorLagrange<dim, 2>::value(surface->total_concentration()[c], q)));
-  const SemiImplicitTension<dim> semi_implicit{parameters.time_stepping.tension_implicitness * dt,
-                                               &stiff_tension, surface ? &dilatational_modulus : nullptr,
-                                               old_velocity};
-  SemiImplicitBending<dim> semi_implicit_bending;
-  if (bending)
-  {
-    semi_implicit_bending.coefficient =
-        bending_stiffness_margin * semi_implicit.coefficient * model.bending().largest_rigidity();
-    semi_implicit_bending.space = &bending->trace_space();
-    semi_implicit_bending.old_velocity = old_velocity;
-  }
-  const bool is_semi_implicit = old_velocity != nullptr && semi_implicit.coefficient > 0.;
-  {
-    TimerOutput::Scope scope(timer_output, "flow: assembly and factorisation");
-    flow.prepare(geometry, *boundary_velocity, is_semi_implicit ? &semi_implicit : nullptr,
-                 is_semi_implicit && bending ? &semi_implicit_bending : nullptr);
-  }
-  TimerOutput::Scope scope(timer_output, "flow: solution");
-  if (parameters.arclength.model != Parameters::ArclengthModel::none)
-  {
-    // The multiplier holds dL/dt = 0; what a step changes nevertheless, the motion of the next one corrects.
-    const ArclengthPenalty penalty =
-        has_arclength_multiplier()
-            ? ArclengthPenalty{std::numeric_limits<double>::infinity(), 0., 1.}
-            : ArclengthPenalty{parameters.arclength.penalty, geometry.measure() - arclength_0, dt};
-    flow.solve(total_tension, &penalty, bending_force.get());
-    for (auto &cell : total_tension)
-      for (double &sigma : cell)
-        sigma += flow.constraint_tension();
-  }
-  else
-    flow.solve(total_tension, nullptr, bending_force.get());
+  membrane_flow.solve(time, dt, {geometry, surface.get(), bending.get(), arclength_0}, old_velocity,
+                      timer_output);
 }
 
 template <int dim>
@@ -404,11 +327,11 @@ CoupledSystem<dim>::take_snapshot(const double time,
   std::vector<MembraneFields<dim>> fields(cut_cells.size());
   for (unsigned int c = 0; c < cut_cells.size(); ++c)
   {
-    fields[c].velocity = raise_degree<dim>(flow.membrane_velocity()[c].nodal);
+    fields[c].velocity = raise_degree<dim>(get_flow().membrane_velocity()[c].nodal);
     fields[c].displacement = transported[c].displacement;
     fields[c].previous_velocity = transported[c].previous_velocity;
     if (has_arclength_multiplier())
-      fields[c].tension_velocity = raise_degree<dim>(flow.tension_velocity()[c].nodal);
+      fields[c].tension_velocity = raise_degree<dim>(get_flow().tension_velocity()[c].nodal);
     if (surface)
     {
       fields[c].concentration = raise_degree<dim>(surface->concentration()[c]);
@@ -441,6 +364,11 @@ StepErrors CoupledSystem<dim>::try_step(const double dt)
   const MembraneProjection<dim> membrane(current.patches, origin);
   MembraneMotion<dim> motion(membrane, dt, dt_previous);
   dt_trial = dt;
+  if (!bending && model.bending().is_active())
+  {
+    bending = std::make_unique<MembraneBending<dim>>(triangulation, model.bending());
+    bending->reinit_mesh();
+  }
 
   if (has_arclength_multiplier())
   {
@@ -519,9 +447,10 @@ StepErrors CoupledSystem<dim>::try_step(const double dt)
     old_velocity[c] = transported[c].previous_velocity;
   solve_flow(time, dt, &old_velocity);
   last_computed_time = time;
-  trial_capillary_step = compute_capillary_time_step();
+  trial_capillary_step = membrane_flow.capillary_time_step(geometry);
   trial = take_snapshot(time, transported);
-  return estimate_step_errors(geometry, flow, surface.get(), transported, predicted, steps, communicator);
+  return estimate_step_errors(geometry, get_flow(), surface.get(), transported, predicted, steps,
+                              communicator);
 }
 
 template <int dim>
@@ -533,17 +462,17 @@ void CoupledSystem<dim>::accept()
   previous = std::move(current);
   current = std::move(trial);
   current_capillary_step = trial_capillary_step;
+  resist_negative_tension();
   sample_flow();
 }
 
 template <int dim>
-double CoupledSystem<dim>::compute_capillary_time_step() const
+void CoupledSystem<dim>::resist_negative_tension()
 {
-  double local = std::numeric_limits<double>::max();
-  for (unsigned int c = 0; c < geometry.cut_cells().size(); ++c)
-    for (const double sigma : total_tension[c])
-      local = std::min(local, geometry.cut_cells()[c].size / std::max(std::abs(sigma), 1e-12));
-  return parameters.fluid.capillary_number * Utilities::MPI::min(local, communicator);
+  const double cell_size =
+      parameters.domain.shortest_edge() *
+      std::ldexp(1., -static_cast<int>(adaptation.limited(parameters.mesh.membrane_level)));
+  model.bending().resist_negative_tension(membrane_flow.smallest_tension(), cell_size);
 }
 
 template class CoupledSystem<2>;

@@ -14,6 +14,7 @@ CoupledState<dim> CoupledSystem<dim>::state() const
   state.area_0 = area_0;
   state.arclength_0 = arclength_0;
   state.capillary_step = current_capillary_step;
+  state.grid_scale_rigidity = model.bending().grid_scale_rigidity();
   state.mesh = gather_mesh_cells(triangulation);
   state.steps_since_remeshing = steps_since_remeshing;
   state.lowered_levels = adaptation.lowered_levels();
@@ -41,6 +42,7 @@ void CoupledSystem<dim>::restore(const CoupledState<dim> &state)
   area_0 = state.area_0;
   arclength_0 = state.arclength_0;
   current_capillary_step = state.capillary_step;
+  model.bending().set_grid_scale_rigidity(state.grid_scale_rigidity);
   last_computed_time = current.time;
 }
 

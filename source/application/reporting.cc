@@ -210,6 +210,7 @@ StatisticsRow make_statistics(const CoupledSystem<dim> &system, const InterfaceS
   if (const auto *const bending = system.get_bending())
     row.energy_bending = bending->energy();
   row.energy_total = row.energy_surface + row.energy_phase + row.energy_constraint + row.energy_bending;
+  row.grid_scale_rigidity = system.get_model().bending().grid_scale_rigidity();
   row.dissipation_viscous = flow.viscous_dissipation();
   row.max_velocity = flow.max_velocity();
   return row;

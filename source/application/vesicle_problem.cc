@@ -293,18 +293,34 @@ void VesicleProblem<dim>::report()
   }
   statistics->write(row);
 
-  // With bending stiffness the wrinkles have a wavelength of their own.
-  if (row.tension_min < 0. && system->get_bending() == nullptr)
-    log->warn_once(
-        "negative tension",
-        "the tension is negative on a part of the membrane since t = " + rounded(row.time) + " (minimum " +
-            rounded(row.tension_min) +
-            "). Without bending stiffness short waves of the shape then grow at the rate |sigma| k / 4: "
-            "wrinkles get the wavelength of the mesh.");
+  warn_of_negative_tension();
   if (system->lowered_levels() > 0)
     log->warn_once("too many cells", "the mesh needs more than 'Mesh/Largest number of cells' = " +
                                          std::to_string(parameters.mesh.largest_number_of_cells) +
                                          " cells; the finest level is lowered.");
+}
+
+template <int dim>
+void VesicleProblem<dim>::warn_of_negative_tension()
+{
+  // With enough bending rigidity the wrinkles have a wavelength of their own.
+  if (row.tension_min >= 0. || (system->get_bending() != nullptr && row.grid_scale_rigidity == 0.))
+    return;
+  const std::string since =
+      "the tension is negative on a part of the membrane since t = " + rounded(row.time) + " (minimum " +
+      rounded(row.tension_min) + "), and ";
+  if (row.grid_scale_rigidity > 0.)
+    log->warn_once("negative tension",
+                   since +
+                       "its bending rigidity is too small for the mesh: a numerical one ('Membrane/Bending/"
+                       "Grid-scale rigidity') makes the fastest wrinkles " +
+                       rounded(2. * numbers::PI * std::sqrt(3. * parameters.bending.grid_scale_rigidity)) +
+                       " cells long. What depends on them depends on the mesh (doc/model.md).");
+  else
+    log->warn_once(
+        "negative tension",
+        since + "there is no bending rigidity: short waves of the shape grow at the rate |sigma| k / 4, "
+                "and wrinkles get the wavelength of the mesh (doc/model.md).");
 }
 
 template <int dim>

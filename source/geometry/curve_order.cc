@@ -16,9 +16,13 @@ namespace
 {
   constexpr unsigned int none = static_cast<unsigned int>(-1);
 
-  /** The nearest point ahead of point @p i among @p candidates, or none. */
+  /**
+   * The nearest point ahead of point @p i among @p candidates, or none; if @p strict, within 45 degrees of
+   * the tangent and with a similar normal.
+   */
   unsigned int nearest_ahead(const unsigned int i, const std::vector<unsigned int> &candidates,
-                             const std::vector<Point<2>> &points, const std::vector<Tensor<1, 2>> &normals)
+                             const std::vector<Point<2>> &points, const std::vector<Tensor<1, 2>> &normals,
+                             const bool strict)
   {
     const Tensor<1, 2> tangent({-normals[i][1], normals[i][0]});
     double best = std::numeric_limits<double>::max();
@@ -27,7 +31,7 @@ namespace
     {
       const Tensor<1, 2> difference = points[j] - points[i];
       const double along = difference * tangent, across = std::abs(difference * normals[i]);
-      if (j == i || along <= 0. || across > along || normals[i] * normals[j] <= 0.)
+      if (j == i || along <= 0. || (strict && (across > along || normals[i] * normals[j] <= 0.)))
         continue;
       const double distance = difference.norm_square();
       if (distance < best)
@@ -74,7 +78,6 @@ std::vector<std::vector<unsigned int>> order_closed_curves(const std::vector<Poi
   }
 
   std::vector<unsigned int> successor(n, none);
-  std::vector<unsigned int> n_predecessors(n, 0);
   std::vector<unsigned int> candidates;
   for (unsigned int i = 0; i < n; ++i)
   {
@@ -87,27 +90,34 @@ std::vector<std::vector<unsigned int>> order_closed_curves(const std::vector<Poi
         if (bin != bins.end())
           candidates.insert(candidates.end(), bin->second.begin(), bin->second.end());
       }
-    successor[i] = nearest_ahead(i, candidates, points, normals);
-    if (successor[i] != none)
-      ++n_predecessors[successor[i]];
+    successor[i] = nearest_ahead(i, candidates, points, normals, true);
+    if (successor[i] == none) // a corner
+      successor[i] = nearest_ahead(i, candidates, points, normals, false);
   }
 
-  // Chains that begin nowhere first (they occur where the curve is not resolved), then the closed ones.
+  // The curves are the cycles: points in excess, where the spacing is uneven, lead into one from the side.
+  constexpr unsigned int not_reached = 0;
+  std::vector<unsigned int> reached_from(n, not_reached); // the walk that came there first, counted from 1
   std::vector<bool> visited(n, false);
-  const auto follow = [&](unsigned int i)
+  for (unsigned int start = 0; start < n; ++start)
   {
+    unsigned int i = start;
+    while (i != none && reached_from[i] == not_reached)
+    {
+      reached_from[i] = start + 1;
+      i = successor[i];
+    }
+    if (i == none || reached_from[i] != start + 1)
+      continue;
     curves.emplace_back();
-    while (i != none && !visited[i])
+    while (!visited[i])
     {
       visited[i] = true;
       curves.back().push_back(i);
       i = successor[i];
     }
-  };
-  for (unsigned int i = 0; i < n; ++i)
-    if (!visited[i] && n_predecessors[i] > 0)
-      follow(i);
-  // A point that nothing leads to is put behind its nearest neighbour.
+  }
+  // A point beside them is put behind its nearest neighbour.
   for (unsigned int i = 0; i < n; ++i)
     if (!visited[i])
     {

@@ -75,7 +75,7 @@ void LevelSet<dim>::set_nodes(const MembraneProjection<dim> &membrane,
     if (!cell->is_locally_owned() && !cell->is_ghost())
       continue;
     const double h = cell->extent_in_direction(0);
-    const bool in_band = std::abs(membrane.approximate_distance(cell->center())) < band_in_cells * h;
+    const bool in_band = cell->center().distance(membrane.nearest(cell->center()).point) < band_in_cells * h;
     is_in_band[cell->active_cell_index()] = in_band;
     if (!in_band && far_nodes_are_set)
       continue;

@@ -93,20 +93,22 @@ MembraneProjection<dim>::MembraneProjection(const std::vector<MembranePatch<dim>
     throw SimulationError("The membrane has degenerated: no point of it could be found in the cut cells.");
 
   for (unsigned int i = 0; i < all_samples.size(); ++i)
-  {
-    Key key;
-    for (unsigned int d = 0; d < dim; ++d)
-      key[d] = static_cast<int>(std::floor((all_samples[i].point[d] - origin[d]) / bin_size));
-    bins[key].push_back(i);
-  }
+    bins[bin_of(all_samples[i].point)].push_back(i);
+}
+
+template <int dim>
+typename MembraneProjection<dim>::Key MembraneProjection<dim>::bin_of(const Point<dim> &x) const
+{
+  Key key;
+  for (unsigned int d = 0; d < dim; ++d)
+    key[d] = static_cast<int>(std::floor((x[d] - origin[d]) / bin_size));
+  return key;
 }
 
 template <int dim>
 unsigned int MembraneProjection<dim>::nearest_sample(const Point<dim> &x) const
 {
-  Key center;
-  for (unsigned int d = 0; d < dim; ++d)
-    center[d] = static_cast<int>(std::floor((x[d] - origin[d]) / bin_size));
+  const Key center = bin_of(x);
   double best = std::numeric_limits<double>::max();
   unsigned int nearest = 0;
   const auto visit = [&](const unsigned int i)
@@ -272,9 +274,32 @@ ClosestPoint<dim> MembraneProjection<dim>::project(const Point<dim> &x, const Cl
 template <int dim>
 double MembraneProjection<dim>::approximate_distance(const Point<dim> &x) const
 {
-  const Sample &sample = all_samples[nearest_sample(x)];
-  const Tensor<1, dim> difference = x - sample.point;
-  return std::copysign(difference.norm(), difference * sample.normal);
+  const Sample &closest = nearest(x);
+  const double distance = x.distance(closest.point);
+  double alignment = 0.;
+  const Key center = bin_of(closest.point);
+  const int n_bins = dim == 2 ? 9 : 27;
+  for (int b = 0; b < n_bins; ++b)
+  {
+    Key key;
+    for (int d = 0, rest = b; d < dim; ++d, rest /= 3)
+      key[d] = center[d] + rest % 3 - 1;
+    const auto bin = bins.find(key);
+    if (bin == bins.end())
+      continue;
+    for (const unsigned int i : bin->second)
+    {
+      const Sample &sample = all_samples[i];
+      const Tensor<1, dim> difference = x - sample.point;
+      const double length = difference.norm();
+      if (length > distance + 0.5 * patches[sample.patch].size || length == 0.)
+        continue;
+      const double cosine = difference * sample.normal / length;
+      if (std::abs(cosine) > std::abs(alignment))
+        alignment = cosine;
+    }
+  }
+  return std::copysign(distance, alignment);
 }
 
 template <int dim>

@@ -6,7 +6,14 @@ namespace Gemmule
 {
 double BendingModel::largest_rigidity() const
 {
-  return std::max(parameters.rigidity_0, parameters.rigidity_1);
+  return std::max(parameters.rigidity_0, parameters.rigidity_1) + grid_scale;
+}
+
+void BendingModel::resist_negative_tension(const double smallest_tension, const double cell_size)
+{
+  const double wanted =
+      parameters.grid_scale_rigidity * std::max(-smallest_tension, 0.) * cell_size * cell_size;
+  grid_scale = std::max(grid_scale, wanted - std::min(parameters.rigidity_0, parameters.rigidity_1));
 }
 
 BendingModel::Local BendingModel::evaluate(const double curvature, const double composition) const
@@ -35,6 +42,10 @@ BendingModel::Local BendingModel::evaluate(const double curvature, const double 
   const double by_weight_twice = (local.rigidity * curvature_jump - 2. * rigidity_jump * d) * curvature_jump;
   local.by_composition = by_weight * s_c;
   local.by_composition_twice = by_weight_twice * s_c * s_c + by_weight * s_cc;
+
+  local.rigidity += grid_scale;
+  local.moment += grid_scale * curvature;
+  local.energy += 0.5 * grid_scale * curvature * curvature;
   return local;
 }
 } // namespace Gemmule

@@ -69,6 +69,7 @@ namespace
         column("linear_iterations", &Row::linear_iterations),
         column("wall_time", &Row::wall_time),
         column("tension_negative_length", &Row::tension_negative_length),
+        column("grid_scale_rigidity", &Row::grid_scale_rigidity),
         column("energy_balance_error", &Row::energy_balance_error),
         column("f_total_shift", &Row::f_total_shift),
         column("time_error_shape", &Row::time_error_shape),

@@ -49,12 +49,14 @@ double StepControl::propose(const double stability_limit)
   if (parameters.adaptive)
     step = std::min(step, stability_limit);
   const auto next = std::upper_bound(stops.begin(), stops.end(), now + same * step);
+  const double whole_step = step;
   const double left = (next == stops.end() ? stops.back() : *next) - now;
   if (step >= left * (1. - same))
     step = left;
   else if (step > 0.5 * left)
     step = 0.5 * left;
   proposed = step;
+  is_cut_short = step < whole_step;
   return step;
 }
 
@@ -79,7 +81,7 @@ bool StepControl::judge(const double estimate, const bool on_new_mesh)
   const double ideal = safety * std::pow(std::max(estimate - floor, 1e-10), -1. / order_of_local_error);
   // A stop can cut a step below the smallest size; repeating it smaller is not possible, and it says nothing
   // about the size to go on with.
-  const bool is_remainder = proposed < parameters.smallest_step * (1. - same);
+  const bool is_remainder = is_cut_short && proposed < parameters.smallest_step * (1. - same);
   if (parameters.adaptive && error > 1. && !is_remainder)
   {
     const bool falls = rejected_step == 0. || estimate < rejected_error * proposed / rejected_step;
@@ -101,10 +103,13 @@ bool StepControl::judge(const double estimate, const bool on_new_mesh)
     // Beside a floor that passes, an estimate says little: the step must not grow on its account.
     const double largest_growth = floor > 0. && floor_passes ? 1. : parameters.largest_growth;
     floor = floor < 0.1 ? 0. : (floor_passes ? fading_after_change : fading) * floor;
-    wanted = std::min(std::max(proposed * std::min(ideal, largest_growth),
+    // What was good enough is not made smaller: an estimate that does not depend on the step size would let
+    // it shrink for ever, while a rejection finds that out.
+    wanted = std::min(std::max(proposed * std::clamp(ideal, 1., largest_growth),
                                // a step cut short by a stop says little about what is possible
                                ideal >= 1. ? std::min(wanted, proposed * ideal) : 0.),
                       parameters.largest_step);
+    wanted = std::max(wanted, parameters.smallest_step);
   }
   if (n_started <= n_halvings)
   {

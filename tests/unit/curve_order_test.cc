@@ -79,6 +79,39 @@ TEST(CurveOrder, BeginsAtTheSamePointWhateverTheRoundOff)
   }
 }
 
+TEST(CurveOrder, FindsOneWrinkledCurveWithPointsInExcess)
+{
+  // Waves as short as a few points, and here and there a second point beside the first that is not ahead of
+  // it.
+  std::vector<Point<2>> points;
+  std::vector<Tensor<1, 2>> normals;
+  const unsigned int n = 600, n_waves = 40;
+  for (unsigned int i = 0; i < n; ++i)
+  {
+    const double angle = 2. * numbers::PI * i / n, amplitude = 0.01;
+    const double radius = 0.5 + amplitude * std::cos(n_waves * angle),
+                 slope = -amplitude * n_waves * std::sin(n_waves * angle);
+    const Tensor<1, 2> radial({std::cos(angle), std::sin(angle)}), azimuthal({-radial[1], radial[0]});
+    const Tensor<1, 2> normal = radius * radial - slope * azimuthal;
+    for (unsigned int copy = 0; copy < (i % 17 == 0 ? 2u : 1u); ++copy)
+    {
+      normals.push_back(normal / normal.norm());
+      points.push_back(Point<2>() + radius * radial + copy * 1e-7 * normals.back());
+    }
+  }
+  const std::vector<double> spacing(points.size(), 2. * numbers::PI * 0.5 / n);
+  const auto curves = order_closed_curves(points, normals, spacing);
+  ASSERT_EQ(curves.size(), 1u);
+  ASSERT_EQ(curves[0].size(), points.size());
+  double length = 0.;
+  for (unsigned int k = 0; k < points.size(); ++k)
+    length += points[curves[0][k]].distance(points[curves[0][(k + 1) % points.size()]]);
+  double exact = 0.; // of the polygon in the order in which the points were made
+  for (unsigned int k = 0; k < points.size(); ++k)
+    exact += points[k].distance(points[(k + 1) % points.size()]);
+  EXPECT_NEAR(length, exact, 1e-5);
+}
+
 TEST(CurveOrder, OfNothingIsNothing)
 {
   EXPECT_TRUE(order_closed_curves({}, {}, {}).empty());

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 #include <limits>
+#include <random>
 
 namespace Gemmule
 {
@@ -103,6 +104,34 @@ TEST(StepControl, DoesNotChaseAnErrorThatIsNotOneOfTime)
     ASSERT_LT(++n_attempts, 150u); // 50 steps of the initial size, and then some
   }
   EXPECT_GT(control.noise_floor(), 1.);
+}
+
+TEST(StepControl, DoesNotShrinkForEverWhereTheEstimateIsMostlyNoise)
+{
+  // Estimates between 0.3 and 1.2 times the tolerance whatever the step, or from 20 to 60, with a part of
+  // time.
+  for (const double level : {0.3, 20.})
+  {
+    StepControl control(parameters(), 0., {1e4});
+    std::mt19937 generator(11);
+    std::uniform_real_distribution<double> noise(level, 3. * level + 0.3);
+    unsigned int n_steps = 0, n_tries = 0;
+    double smallest = 1.;
+    while (n_steps < 400)
+    {
+      const double step = control.propose(unlimited);
+      ++n_tries;
+      if (control.judge(noise(generator) + std::pow(step / 0.05, 3)))
+      {
+        ++n_steps;
+        if (n_steps > 20)
+          smallest = std::min(smallest, step);
+      }
+    }
+    EXPECT_GT(smallest, 4e-4) << level;
+    EXPECT_GT(control.time() / n_steps, 5e-3) << level;
+    EXPECT_LT(n_tries, 2 * n_steps) << level;
+  }
 }
 
 TEST(StepControl, SoonForgetsWhatAChangeOfTheMeshHasShown)

@@ -23,6 +23,7 @@ struct CoupledState
   double dt_preceding = 0.; ///< the one before
   double area_0 = 0., arclength_0 = 0.;
   double capillary_step = 0.; ///< limit of the explicit coupling, per unit of its Courant number
+  double grid_scale_rigidity = 0.;
 
   std::vector<MeshCell<dim>> mesh; ///< refinement has hysteresis, so that the membrane does not imply it
   unsigned int steps_since_remeshing = 0;

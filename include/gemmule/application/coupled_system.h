@@ -1,8 +1,8 @@
 #pragma once
 
 #include <gemmule/application/coupled_state.h>
+#include <gemmule/application/membrane_flow.h>
 #include <gemmule/application/step_errors.h>
-#include <gemmule/flow/stokes_solver.h>
 #include <gemmule/geometry/cut_geometry.h>
 #include <gemmule/geometry/level_set.h>
 #include <gemmule/geometry/membrane_snapshot.h>
@@ -79,12 +79,12 @@ public:
   const CutGeometry<dim> &get_geometry() const { return geometry; }
   /** nullptr with a prescribed tension. */
   const SurfaceSolver<dim> *get_surface() const { return surface.get(); }
-  /** nullptr without bending. */
+  /** nullptr as long as the membrane does not resist bending, also not on the grid scale. */
   const MembraneBending<dim> *get_bending() const { return bending.get(); }
-  const StokesSolver<dim> &get_flow() const { return flow; }
+  const StokesSolver<dim> &get_flow() const { return membrane_flow.solver(); }
   const MembraneModel &get_model() const { return model; }
   /** sigma with the arclength constraint's part, per owned cut cell and quadrature point. */
-  const MembraneScalar &tension() const { return total_tension; }
+  const MembraneScalar &tension() const { return membrane_flow.tension(); }
   double reference_arclength() const { return arclength_0; }
   double area_correction() const { return last_area_correction; }
   unsigned int lowered_levels() const { return adaptation.lowered_levels(); }
@@ -111,7 +111,8 @@ private:
   void sample_flow();
   /** @param old_velocity of the same material points one step ago; nullptr at the start */
   void solve_flow(double time, double dt, const CutCellVector<dim> *old_velocity);
-  double compute_capillary_time_step() const;
+  /** Lets the negative tension of the current state have its grid-scale rigidity in the next step. */
+  void resist_negative_tension();
   /** Level set and cut mesh of the current membrane after @p motion, with the area of the beginning. */
   void move_level_set(const MembraneMotion<dim> &motion);
   bool has_arclength_multiplier() const;
@@ -126,16 +127,14 @@ private:
   const dealii::Point<dim> origin;
   dealii::TimerOutput timer_output;
 
-  std::unique_ptr<dealii::Function<dim>> boundary_velocity, prescribed_tension;
   MembraneModel model;
   LevelSet<dim> level_set;
   CutGeometry<dim> geometry;
   std::unique_ptr<SurfaceSolver<dim>> surface;
   std::unique_ptr<MembraneBending<dim>> bending; ///< nullptr without bending
-  StokesSolver<dim> flow;
+  MembraneFlow<dim> membrane_flow;
   MeshAdaptation<dim> adaptation;
 
-  MembraneScalar total_tension;
   double area_0 = 0., arclength_0 = 0.;
   double last_area_correction = 0.;
   unsigned int steps_since_remeshing = 0;

@@ -57,6 +57,7 @@ private:
   /** What to add to the reason of a failure if the total concentration has all but vanished; else nothing. */
   std::string end_of_the_model() const;
   void report();
+  void warn_of_negative_tension();
   void write_output_if_due(bool at_end);
   /** Before the run ends with an error: what was accepted last goes to the disk. */
   void save_last_state(const std::string &reason);

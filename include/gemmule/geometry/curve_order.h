@@ -10,8 +10,8 @@ namespace Gemmule
 /**
  * Orders points that lie on closed curves in the plane. The successor of a point is the nearest one ahead of
  * it, in the direction that keeps the inside on the left (counter-clockwise for a circle), within a cone of
- * 45 degrees and with a similar normal. Each curve begins at its leftmost point, the lower one of two that
- * differ by round-off; the curves are in the order of their first points.
+ * 45 degrees and with a similar normal where there is one. Each curve begins at its leftmost point, the lower
+ * one of two that differ by round-off; the curves are in the order of their first points.
  *
  * @param spacing for each point a length comparable to the distance to its neighbours (its quadrature weight)
  * @return one list of indices per curve; each point occurs once

@@ -39,8 +39,11 @@ public:
   /** The same from a good initial guess, for example the result of a nearby point. */
   ClosestPoint<dim> project(const dealii::Point<dim> &x, const ClosestPoint<dim> &guess) const;
 
-  /** Signed distance to the nearest sample: cheap, error of the order of the sample spacing squared over
-   * distance. */
+  /**
+   * Distance to the nearest sample, with the sign that the best aligned normal of the samples near it gives:
+   * cheap, error of the order of the sample spacing squared over distance. Beside a corner of the membrane
+   * the nearest normal alone can be wrong.
+   */
   double approximate_distance(const dealii::Point<dim> &x) const;
 
   /** Samples on the membrane, a few per patch. */
@@ -52,6 +55,7 @@ public:
     unsigned int patch;
   };
   const std::vector<Sample> &samples() const { return all_samples; }
+  const Sample &nearest(const dealii::Point<dim> &x) const { return all_samples[nearest_sample(x)]; }
   const std::vector<MembranePatch<dim>> &get_patches() const { return patches; }
 
   /** Value at a closest point of a field of its patch. */
@@ -68,14 +72,15 @@ public:
   double curvature(const Sample &sample) const;
 
 private:
-  unsigned int nearest_sample(const dealii::Point<dim> &x) const;
-  ClosestPoint<dim> newton(const dealii::Point<dim> &x, unsigned int patch, dealii::Point<dim> y) const;
-
   using Key = std::array<int, dim>;
   struct KeyHash
   {
     std::size_t operator()(const Key &key) const;
   };
+
+  Key bin_of(const dealii::Point<dim> &x) const;
+  unsigned int nearest_sample(const dealii::Point<dim> &x) const;
+  ClosestPoint<dim> newton(const dealii::Point<dim> &x, unsigned int patch, dealii::Point<dim> y) const;
 
   const std::vector<MembranePatch<dim>> &patches;
   dealii::Point<dim> origin;

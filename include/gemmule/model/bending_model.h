@@ -11,17 +11,29 @@ namespace Gemmule
  *
  * with curvature kappa = div n (positive on a circle) and composition c = f / fbar (design section 6;
  * Helfrich 1973). Rigidity k and spontaneous curvature kappa_0 are interpolated between the phases, constant
- * beyond them. Everything is dimensionless.
+ * beyond them. Where tension is negative a numerical rigidity can join them. Everything is dimensionless.
  */
 class BendingModel
 {
 public:
   explicit BendingModel(const Parameters::Bending &parameters) : parameters(parameters) {}
 
-  bool is_active() const { return parameters.is_active(); }
+  bool is_active() const { return parameters.is_active() || grid_scale > 0.; }
 
-  /** The larger rigidity of the two phases. */
+  /** The larger rigidity of the two phases, with that of the grid scale. */
   double largest_rigidity() const;
+
+  /**
+   * Adds the energy (k_h/2) kappa^2 of a numerical rigidity k_h, which holds negative tension |sigma| on
+   * cells of edge h together: k_h is the least, but not less than before, with which both phases have at
+   * least C |sigma| h^2. The waves that grow fastest then have the length 2 pi sqrt(3 C) h, instead of the
+   * shortest there is. C: "Membrane/Bending/Grid-scale rigidity". Source: doc/model.md, "Negative tension".
+   */
+  void resist_negative_tension(double smallest_tension, double cell_size);
+
+  /** k_h (dimensionless). */
+  double grid_scale_rigidity() const { return grid_scale; }
+  void set_grid_scale_rigidity(const double rigidity) { grid_scale = rigidity; }
 
   struct Local
   {
@@ -36,5 +48,6 @@ public:
 
 private:
   Parameters::Bending parameters;
+  double grid_scale = 0.;
 };
 } // namespace Gemmule

@@ -52,6 +52,7 @@ struct StatisticsRow
   double wall_time = 0.; ///< seconds since the start, of all runs that were resumed
 
   double tension_negative_length = 0.; ///< length of membrane under negative tension
+  double grid_scale_rigidity = 0.;     ///< numerical bending rigidity that it has got
   double energy_balance_error = 0.;    ///< dE/dt + dissipation over the step, relative to the dissipation
   double f_total_shift = 0.;           ///< shift of f_total that makes its mass exact
   double time_error_shape = 0.;        ///< estimated local error of the membrane's position

@@ -88,6 +88,8 @@ struct Bending
   double spontaneous_curvature_0 = 0.;
   double spontaneous_curvature_1 = 0.;
   Interpolation interpolation = Interpolation::smooth_step;
+  /** C of the numerical rigidity C |sigma| h^2 under negative tension. */
+  double grid_scale_rigidity = 1.;
 
   /** Does the membrane resist bending at all? */
   bool is_active() const { return rigidity_0 > 0. || rigidity_1 > 0.; }

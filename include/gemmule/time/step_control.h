@@ -81,7 +81,8 @@ private:
 
   Parameters::TimeStepping parameters;
   std::vector<double> stops;
-  double proposed = 0.;    ///< step in work
-  unsigned int n_halvings; ///< of the initial step, at the start
+  double proposed = 0.;      ///< step in work
+  bool is_cut_short = false; ///< by a stop
+  unsigned int n_halvings;   ///< of the initial step, at the start
 };
 } // namespace Gemmule
