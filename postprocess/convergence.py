@@ -6,13 +6,12 @@ python3 -m postprocess.convergence CASE.prm --executable build/release/gemmule -
 
 import argparse
 import sys
-from concurrent.futures import ThreadPoolExecutor
-from pathlib import Path
 
 try:
     import numpy as np
     import pandas as pd
 
+    from postprocess import studies
     from postprocess.case_runs import SAME_TIME, varied
     from postprocess.curves import closed_curves
     from postprocess.necks import narrowest_neck
@@ -175,15 +174,9 @@ def parse_values(text):
 
 def parser():
     result = argparse.ArgumentParser(prog="python3 -m postprocess.convergence", description=__doc__.split("\n")[0])
-    result.add_argument("case", type=Path, metavar="CASE.prm")
-    result.add_argument("--executable", type=Path, required=True, help="the program, build/release/gemmule")
+    studies.add_arguments(result)
     result.add_argument("--parameter", required=True, metavar="SECTION/KEY", help="the parameter that is varied")
     result.add_argument("--values", type=parse_values, required=True, help="its values, the finest last: 4,5,6,7")
-    result.add_argument("--time", type=float, required=True, help="when to compare; the runs end there")
-    result.add_argument("--output", type=Path, required=True, help="directory of the runs and the table")
-    result.add_argument("--set", action="append", default=[], metavar="SECTION/KEY=VALUE", help="for all runs")
-    result.add_argument("--jobs", type=int, default=1, help="runs at the same time (default: 1)")
-    result.add_argument("--fresh", action="store_true", help="compute again what has been computed")
     result.add_argument(
         "--measure",
         choices=MEASURES,
@@ -200,38 +193,24 @@ def study(options):
             f"the values {', '.join(options.values)} do not get finer: --values needs the finest last, "
             f"and --measure {measure} has to be right"
         )
-    for path in (options.executable, options.case):
-        if not path.is_file():
-            raise ResultsError(f"there is no file '{path}'")
+    studies.check_files(options)
     program = options.executable.resolve()
     runs = [
         varied(program, options.case, options.set, options.parameter, value, options.time, options.output)
         for value in options.values
     ]
-    with ThreadPoolExecutor(max(1, options.jobs)) as pool:
-        list(pool.map(lambda run: run.complete(options.fresh), runs))
+    studies.complete(runs, options)
 
     table = compare(options.values, sizes, [State(run.directory, options.time) for run in runs])
-    table.to_csv(options.output / "convergence.csv", index=False)
     text = markdown(table, options.parameter, options.time)
-    (options.output / "convergence.md").write_text(text)
-
-    import matplotlib
-
-    matplotlib.use("Agg")
-    from postprocess import style
-
-    style.save(figure(table, options.parameter, options.time, measure), options.output / "convergence.png")
+    studies.write(
+        options.output, "convergence", table, text, lambda: figure(table, options.parameter, options.time, measure)
+    )
     return text
 
 
 def main(arguments=None):
-    try:
-        print(study(parser().parse_args(arguments)))
-    except (ResultsError, OSError) as error:
-        print(f"error: {error}", file=sys.stderr)
-        return 1
-    return 0
+    return studies.main(study, parser().parse_args(arguments))
 
 
 if __name__ == "__main__":

@@ -9,13 +9,12 @@ complete and have the same parameters are used again.
 
 import argparse
 import sys
-from concurrent.futures import ThreadPoolExecutor
-from pathlib import Path
 
 try:
     import numpy as np
     import pandas as pd
 
+    from postprocess import studies
     from postprocess.case_runs import Run
     from postprocess.convergence import LABELS, QUANTITIES, State, compare, markdown, parse_values
     from postprocess.results import ResultsError
@@ -195,10 +194,7 @@ def parse_series(text):
 
 def parser():
     result = argparse.ArgumentParser(prog="python3 -m postprocess.mesh_study", description=__doc__.split("\n")[0])
-    result.add_argument("case", type=Path, metavar="CASE.prm")
-    result.add_argument("--executable", type=Path, required=True, help="the program, build/release/gemmule")
-    result.add_argument("--time", type=float, required=True, help="when to compare; the runs end there")
-    result.add_argument("--output", type=Path, required=True, help="directory of the runs, the table and the plot")
+    studies.add_arguments(result)
     result.add_argument(
         "--vary",
         choices=VARIATIONS,
@@ -222,9 +218,6 @@ def parser():
         help="series whose finest run the others are compared with (default: the first). Adaptive meshes of one kind "
         "share errors, such as that of a coarse bulk, which only another kind of mesh shows",
     )
-    result.add_argument("--set", action="append", default=[], metavar="SECTION/KEY=VALUE", help="for all runs")
-    result.add_argument("--jobs", type=int, default=1, help="runs at the same time (default: 1)")
-    result.add_argument("--fresh", action="store_true", help="compute again what has been computed")
     return result
 
 
@@ -254,35 +247,25 @@ def report(all_series, all_tables, time, reference):
 
 
 def study(options):
-    for path in (options.executable, options.case):
-        if not path.is_file():
-            raise ResultsError(f"there is no file '{path}'")
+    studies.check_files(options)
     all_series = make_series(options)
     reference = reference_series(all_series, options.reference)
-    with ThreadPoolExecutor(max(1, options.jobs)) as pool:
-        list(pool.map(lambda run: run.complete(options.fresh), [run for series in all_series for run in series.runs]))
+    studies.complete([run for series in all_series for run in series.runs], options)
 
     all_tables = tables(all_series, options.time, reference)
-    pd.concat(all_tables).to_csv(options.output / "mesh_study.csv", index=False)
     text = report(all_series, all_tables, options.time, reference)
-    (options.output / "mesh_study.md").write_text(text)
-
-    import matplotlib
-
-    matplotlib.use("Agg")
-    from postprocess import style
-
-    style.save(figure(all_series, all_tables, options.time), options.output / "mesh_study.png")
+    studies.write(
+        options.output,
+        "mesh_study",
+        pd.concat(all_tables),
+        text,
+        lambda: figure(all_series, all_tables, options.time),
+    )
     return text
 
 
 def main(arguments=None):
-    try:
-        print(study(parser().parse_args(arguments)))
-    except (ResultsError, OSError) as error:
-        print(f"error: {error}", file=sys.stderr)
-        return 1
-    return 0
+    return studies.main(study, parser().parse_args(arguments))
 
 
 if __name__ == "__main__":

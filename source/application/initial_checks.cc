@@ -1,12 +1,12 @@
 #include <gemmule/application/initial_checks.h>
 #include <gemmule/parameters/errors.h>
 #include <gemmule/parameters/expression.h>
+#include <gemmule/parameters/raise_together.h>
 #include <gemmule/parameters/section.h>
 #include <gemmule/parameters/text.h>
 
 #include <cmath>
 #include <map>
-#include <sstream>
 
 namespace Gemmule
 {
@@ -25,31 +25,13 @@ namespace
   // Expressions that end at zero or one may overshoot by round-off.
   constexpr double composition_tolerance = 1e-8;
 
-  std::string short_number(const double x)
-  {
-    std::ostringstream text;
-    text.precision(3);
-    text << x;
-    return text.str();
-  }
-
   template <int dim>
   std::string coordinates(const Point<dim> &p)
   {
     std::string text;
     for (unsigned int d = 0; d < dim; ++d)
-      text += (d == 0 ? "(" : ", ") + short_number(p[d]);
+      text += (d == 0 ? "(" : ", ") + Parameters::short_number(p[d]);
     return text + ")";
-  }
-
-  /** Throws on all ranks if one of them has a complaint, that of the lowest such rank. Collective. */
-  void raise_together(const std::string &parameter, const std::string &complaint, const MPI_Comm communicator)
-  {
-    const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(communicator);
-    const unsigned int rank = Utilities::MPI::this_mpi_process(communicator);
-    const unsigned int speaker = Utilities::MPI::min(complaint.empty() ? n_ranks : rank, communicator);
-    if (speaker < n_ranks)
-      throw ParameterError(parameter, Utilities::MPI::broadcast(communicator, complaint, speaker));
   }
 
   /** A point where two sheets of opposite normals nearly meet, if there is one. */
@@ -143,7 +125,7 @@ template <int dim>
 void InitialChecks<dim>::level_set(const unsigned int n_crossed, const unsigned int n_negative,
                                    const std::string &not_finite, const MPI_Comm communicator) const
 {
-  raise_together("Membrane/Level set", not_finite, communicator);
+  Parameters::raise_together("Membrane/Level set", not_finite, communicator);
   if (Utilities::MPI::sum(n_crossed, communicator) == 0)
     fail_level_set(std::string("has no zero in the box: it is ") +
                    (Utilities::MPI::sum(n_negative, communicator) > 0 ? "negative" : "positive") +
@@ -181,7 +163,7 @@ void InitialChecks<dim>::membrane(const Function<dim> &expression,
     const double value = expression.value(sample.point);
     if (!(std::abs(value) <= largest_remainder * largest))
       fail_level_set("changes its sign without passing through zero near " + coordinates(sample.point) +
-                     ": it has the value " + short_number(value) +
+                     ": it has the value " + Parameters::short_number(value) +
                      " there. Give a continuous function without jumps and poles, for example "
                      "x^2+2*y^2-0.25, or a finer 'Mesh/Membrane level' if the shape has fine details.");
   }
@@ -224,7 +206,7 @@ void InitialChecks<dim>::concentrations(const Function<dim> &concentration,
     if (!(composition >= -composition_tolerance && composition <= 1. + composition_tolerance))
       throw ParameterError(f, Parameters::in_quotes(parameters.membrane.initial_concentration) +
                                   " makes the composition (concentration / total concentration) " +
-                                  short_number(composition) + " at " + coordinates(p) +
+                                  Parameters::short_number(composition) + " at " + coordinates(p) +
                                   " on the membrane. Give an expression between 0 and 'Initial total "
                                   "concentration'.");
   }

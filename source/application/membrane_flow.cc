@@ -2,6 +2,7 @@
 #include <gemmule/flow/bending_force.h>
 #include <gemmule/flow/semi_implicit_bending.h>
 #include <gemmule/parameters/expression.h>
+#include <gemmule/parameters/raise_together.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -40,12 +41,19 @@ MembraneScalar MembraneFlow<dim>::tension_of(const Membrane &membrane, const dou
 
   prescribed_tension->set_time(time);
   MembraneScalar sigma;
+  std::string complaint;
   for (const auto &cell : membrane.geometry.cut_cells())
   {
     sigma.emplace_back();
-    for (const auto &point : cell.surface_points)
-      sigma.back().push_back(prescribed_tension->value(cell.physical(point)));
+    for (const auto &unit_point : cell.surface_points)
+    {
+      const Point<dim> point = cell.physical(unit_point);
+      sigma.back().push_back(prescribed_tension->value(point));
+      if (!std::isfinite(sigma.back().back()) && complaint.empty())
+        complaint = not_finite_complaint<dim>(*prescribed_tension, {point});
+    }
   }
+  Parameters::raise_together("Membrane/Prescribed tension", complaint, communicator);
   return sigma;
 }
 

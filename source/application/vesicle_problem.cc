@@ -3,7 +3,9 @@
 #include <gemmule/application/reporting.h>
 #include <gemmule/application/vesicle_problem.h>
 #include <gemmule/output/output_directory.h>
+#include <gemmule/output/rank_zero.h>
 #include <gemmule/parameters/errors.h>
+#include <gemmule/parameters/text.h>
 #include <gemmule/time/step_control.h>
 
 #include <cmath>
@@ -30,10 +32,7 @@ namespace
 
   std::string rounded(const double x)
   {
-    std::ostringstream text;
-    text.precision(4);
-    text << x;
-    return text.str();
+    return Parameters::short_number(x, 4);
   }
 } // namespace
 
@@ -48,8 +47,14 @@ VesicleProblem<dim>::VesicleProblem(const AllParameters &parameters_, const MPI_
   membrane = std::make_unique<InterfaceSamples<dim>>();
   std::vector<std::string> notes;
   std::optional<RunState<dim>> resumed;
+  std::unique_ptr<DirectoryLock> lock;
   if (resume)
+  {
+    // Before anything is read that another run may be changing.
+    on_rank_zero(communicator,
+                 [&]() { lock = DirectoryLock::acquire_existing(parameters.output_directory); });
     resumed = checkpoints->load(notes);
+  }
 
   // The case first: a mistake in it must not cost the results of an earlier run.
   system = std::make_unique<CoupledSystem<dim>>(parameters, communicator);
@@ -59,18 +64,18 @@ VesicleProblem<dim>::VesicleProblem(const AllParameters &parameters_, const MPI_
     system->initialise();
 
   control = std::make_unique<StepControl>(parameters.time_stepping, 0., stops());
-  open_output(resumed ? &*resumed : nullptr);
+  open_output(resumed ? &*resumed : nullptr, std::move(lock));
   if (resumed)
     continue_from(*resumed, notes);
 }
 
 template <int dim>
-void VesicleProblem<dim>::open_output(const RunState<dim> *resumed)
+void VesicleProblem<dim>::open_output(const RunState<dim> *resumed, std::unique_ptr<DirectoryLock> lock)
 {
   const double resume_after_time =
       resumed != nullptr ? resumed->row.time : -std::numeric_limits<double>::infinity();
-  directory =
-      std::make_unique<OutputDirectory>(parameters.output_directory, communicator, resumed != nullptr);
+  directory = std::make_unique<OutputDirectory>(parameters.output_directory, communicator, resumed != nullptr,
+                                                std::move(lock));
   if (resumed != nullptr)
     checkpoints->restore_results();
   log = std::make_unique<RunLog>(directory->path(), communicator, resumed != nullptr);
@@ -181,6 +186,14 @@ int VesicleProblem<dim>::run()
     catch (const SimulationError &error)
     {
       const std::string reason = error.what() + end_of_the_model();
+      save_last_state(reason);
+      throw SimulationError(reason);
+    }
+    catch (const ParameterError &error)
+    {
+      // An expression of t that makes no sense any more. All ranks find it together, and no smaller step
+      // helps.
+      const std::string reason = parameters.located(error).what();
       save_last_state(reason);
       throw SimulationError(reason);
     }

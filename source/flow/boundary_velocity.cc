@@ -1,5 +1,8 @@
 #include <gemmule/flow/boundary_velocity.h>
 #include <gemmule/parameters/errors.h>
+#include <gemmule/parameters/expression.h>
+#include <gemmule/parameters/raise_together.h>
+#include <gemmule/parameters/text.h>
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/dofs/dof_tools.h>
@@ -91,31 +94,36 @@ template <int dim>
 void BoundaryVelocity<dim>::constrain(const Function<dim> &velocity, AffineConstraints<double> &constraints)
 {
   AssertDimension(velocity.n_components, dim);
+  const std::string parameter = "Domain/Boundary velocity";
+  std::string complaint;
   std::vector<double> values(boundary_dofs.size());
   std::array<double, 2> sums{{0., 0.}};
   for (unsigned int i = 0; i < values.size(); ++i)
   {
     const auto &b = boundary_dofs[i];
     values[i] = velocity.value(b.point, b.component);
+    if (!std::isfinite(values[i]) && complaint.empty())
+      complaint = not_finite_complaint<dim>(velocity, {b.point});
     if (b.owned)
     {
       sums[0] += b.flux_weight * values[i];
       sums[1] += std::abs(b.flux_weight * values[i]);
     }
   }
+  Parameters::raise_together(parameter, complaint, communicator);
+  // All ranks see the same sums from here on, and throw together.
   const double total = Utilities::MPI::sum(sums[1], communicator);
   flux = Utilities::MPI::sum(sums[0], communicator);
-  // Every boundary dof is owned by some rank, so that all ranks see the same sums and throw together.
   if (!std::isfinite(total))
-    throw ParameterError("Domain/Boundary velocity",
-                         "the velocity is not a finite number everywhere on the walls. Look for divisions by "
-                         "zero and for roots or logarithms of negative numbers.");
+    throw ParameterError(parameter, "the velocity at the walls is too large to compute with at t = " +
+                                        Parameters::short_number(velocity.get_time()) +
+                                        ": its flux is no finite number. Give a smaller one.");
   if (std::abs(flux) > 0.05 * total + 1e-14)
     throw ParameterError(
-        "Domain/Boundary velocity",
-        "the flow at the walls pumps fluid into or out of the box (net flux " + std::to_string(flux) +
-            "), which an incompressible fluid cannot do. Give a velocity of zero divergence, "
-            "for example '0.5*y; 0'.");
+        parameter, "the flow at the walls pumps fluid into or out of the box (net flux " +
+                       std::to_string(flux) + " at t = " + Parameters::short_number(velocity.get_time()) +
+                       "), which an incompressible fluid cannot do. Give a velocity of zero divergence, "
+                       "for example '0.5*y; 0'.");
 
   const double correction = flux / boundary_measure;
   for (unsigned int i = 0; i < values.size(); ++i)

@@ -57,13 +57,16 @@ namespace
   }
 } // namespace
 
-OutputDirectory::OutputDirectory(const std::string &path, const MPI_Comm &communicator, const bool resume)
-    : directory(path.empty() ? "." : path), communicator(communicator)
+OutputDirectory::OutputDirectory(const std::string &path, const MPI_Comm &communicator, const bool resume,
+                                 std::unique_ptr<DirectoryLock> given_lock)
+    : directory(path.empty() ? "." : path), communicator(communicator), lock(std::move(given_lock))
 {
   on_rank_zero(communicator,
                [&]()
                {
                  create(directory);
+                 if (!lock)
+                   lock = DirectoryLock::acquire(directory);
                  check_writable(directory);
                  if (resume)
                    return;

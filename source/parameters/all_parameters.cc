@@ -25,9 +25,6 @@ namespace
     section.add("Output directory", parameters.output_directory,
                 "Directory for all results, relative to the working directory; it is created if need be.",
                 "the name of a directory");
-    section.add("Random seed", parameters.random_seed,
-                "Seed of all random numbers that a run draws, so that it can be repeated exactly.",
-                Range::non_negative());
   }
 
   /** Vertices of a lattice on the box, so coarse that it costs nothing and so odd that it holds the centre.

@@ -124,8 +124,8 @@ make_function(const std::string &expression, const unsigned int n_components, co
 }
 
 template <int dim>
-void check_finite(const dealii::Function<dim> &function, const std::vector<dealii::Point<dim>> &points,
-                  const std::string &where)
+std::string not_finite_complaint(const dealii::Function<dim> &function,
+                                 const std::vector<dealii::Point<dim>> &points)
 {
   for (const dealii::Point<dim> &point : points)
     for (unsigned int i = 0; i < function.n_components; ++i)
@@ -133,24 +133,32 @@ void check_finite(const dealii::Function<dim> &function, const std::vector<deali
       const double value = function.value(point, i);
       if (std::isfinite(value))
         continue;
-      // Three digits are enough to find the point; the sign of NaN says nothing.
-      std::ostringstream text;
-      text.precision(3);
-      text << "the expression has the value " << (std::isnan(value) ? "nan" : Parameters::to_text(value))
-           << " at (";
+      // The sign of NaN says nothing.
+      std::string text = "the expression has the value " +
+                         (std::isnan(value) ? "nan" : Parameters::to_text(value)) + " at (";
       for (unsigned int d = 0; d < dim; ++d)
-        text << (d == 0 ? "" : ", ") << point[d];
-      text << "), t = " << function.get_time()
-           << ". It has to be a finite number there; look for divisions by zero and for roots or logarithms "
-              "of "
-              "negative numbers.";
-      throw ParameterError(where, text.str());
+        text += (d == 0 ? "" : ", ") + Parameters::short_number(point[d]);
+      return text + "), t = " + Parameters::short_number(function.get_time()) +
+             ". It has to be a finite number there; look for divisions by zero and for roots or logarithms "
+             "of "
+             "negative numbers.";
     }
+  return "";
+}
+
+template <int dim>
+void check_finite(const dealii::Function<dim> &function, const std::vector<dealii::Point<dim>> &points,
+                  const std::string &where)
+{
+  if (const std::string complaint = not_finite_complaint(function, points); !complaint.empty())
+    throw ParameterError(where, complaint);
 }
 
 #define INSTANTIATE(dim)                                                                                     \
   template std::unique_ptr<dealii::Function<dim>> make_function<dim>(const std::string &, unsigned int,      \
                                                                      const std::string &);                   \
+  template std::string not_finite_complaint<dim>(const dealii::Function<dim> &,                              \
+                                                 const std::vector<dealii::Point<dim>> &);                   \
   template void check_finite<dim>(const dealii::Function<dim> &, const std::vector<dealii::Point<dim>> &,    \
                                   const std::string &);
 INSTANTIATE(2)

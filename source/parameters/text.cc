@@ -1,6 +1,7 @@
 #include <gemmule/parameters/text.h>
 
 #include <cstdio>
+#include <sstream>
 
 namespace Gemmule::Parameters
 {
@@ -71,7 +72,16 @@ std::string shortened(const std::string &text)
 
 std::string in_quotes(const std::string &text)
 {
-  return "'" + shortened(text) + "'";
+  // A zero byte would end the message of an exception.
+  return "'" + printable(shortened(text)) + "'";
+}
+
+std::string short_number(const double number, const unsigned int digits)
+{
+  std::ostringstream text;
+  text.precision(digits);
+  text << number;
+  return text.str();
 }
 
 std::string printable(const std::string &text)

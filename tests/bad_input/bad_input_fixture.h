@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "support/run_program.h"
+#include "support/test_size.h"
 
 namespace Gemmule::Testing
 {
@@ -31,7 +32,7 @@ protected:
   {
     const auto before = listing();
     // Accepted by mistake, a case would compute for long.
-    const Result result = run_gemmule(directory, arguments, 1, "timeout 120 ");
+    const Result result = run_gemmule(directory, arguments, 1, time_limit(120));
     EXPECT_EQ(result.exit_code, 1) << result.out << result.err;
     EXPECT_EQ(result.out, "");
     EXPECT_EQ(listing(), before) << "something was written";

@@ -18,6 +18,7 @@
 
 #include "mutator.h"
 #include "support/run_program.h"
+#include "support/test_size.h"
 
 namespace Gemmule::Testing
 {
@@ -256,7 +257,7 @@ TEST_F(Fuzz, Check)
     if (keep)
       std::ofstream("fuzz-input.prm", std::ios::binary) << content;
     const Result result = run_gemmule(directory, "fuzz.prm --check --set 'Mesh/Largest number of cells=2000'",
-                                      1, "timeout 100 ");
+                                      1, time_limit(100));
     EXPECT_TRUE(result.exit_code == 0 || result.exit_code == 1) << "exit code " << result.exit_code << "\n"
                                                                 << result.out << result.err << "\n"
                                                                 << content;

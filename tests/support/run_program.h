@@ -54,23 +54,31 @@ struct Result
 };
 
 /**
- * Runs the executable in @p directory with arguments in shell syntax, on one process or under mpirun. The
+ * The command that starts the executable with arguments in shell syntax, on one process or under mpirun. The
  * environment is a clean one, except for the sanitizers' options: that of an MPI program, as the tests are,
- * would confuse another.
+ * would confuse another. Output goes to .stdout and .stderr of @p directory.
+ */
+inline std::string command_of(const TemporaryDirectory &directory, const std::string &arguments,
+                              const unsigned int n_processes, const std::string &before,
+                              const std::string &prefix)
+{
+  const std::string launcher =
+      n_processes == 1 ? "" : "mpirun --oversubscribe -n " + std::to_string(n_processes) + " ";
+  return "cd '" + directory.path.string() + "' && " + before +
+         "env -i PATH=\"$PATH\" HOME=\"$HOME\" OMPI_ALLOW_RUN_AS_ROOT=1 "
+         "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMP_NUM_THREADS=1 DEAL_II_NUM_THREADS=1 "
+         "ASAN_OPTIONS=\"$ASAN_OPTIONS\" LSAN_OPTIONS=\"$LSAN_OPTIONS\" UBSAN_OPTIONS=\"$UBSAN_OPTIONS\" " +
+         prefix + launcher + GEMMULE_EXECUTABLE + " " + arguments + " > .stdout 2> .stderr";
+}
+
+/**
+ * Runs the executable in @p directory with arguments in shell syntax, on one process or under mpirun.
  * @param prefix of the command, for example "timeout 60 "
  */
 inline Result run_gemmule(const TemporaryDirectory &directory, const std::string &arguments,
                           const unsigned int n_processes = 1, const std::string &prefix = "")
 {
-  const std::string launcher =
-      n_processes == 1 ? "" : "mpirun --oversubscribe -n " + std::to_string(n_processes) + " ";
-  const std::string command = "cd '" + directory.path.string() +
-                              "' && env -i PATH=\"$PATH\" HOME=\"$HOME\" OMPI_ALLOW_RUN_AS_ROOT=1 "
-                              "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMP_NUM_THREADS=1 DEAL_II_NUM_THREADS=1 "
-                              "ASAN_OPTIONS=\"$ASAN_OPTIONS\" LSAN_OPTIONS=\"$LSAN_OPTIONS\" "
-                              "UBSAN_OPTIONS=\"$UBSAN_OPTIONS\" " +
-                              prefix + launcher + GEMMULE_EXECUTABLE + " " + arguments +
-                              " > .stdout 2> .stderr";
+  const std::string command = command_of(directory, arguments, n_processes, "", prefix);
   const int status = std::system(command.c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : 128, directory.read(".stdout"),
           directory.read(".stderr")};

@@ -19,13 +19,8 @@ public:
   RunningProgram(const TemporaryDirectory &directory, const std::string &arguments,
                  const unsigned int n_processes = 1)
   {
-    const std::string launcher =
-        n_processes == 1 ? "" : "mpirun --oversubscribe -n " + std::to_string(n_processes) + " ";
     // exec: the process that we know is the program (or mpirun) itself.
-    const std::string command = "cd '" + directory.path.string() +
-                                "' && exec env -i PATH=\"$PATH\" HOME=\"$HOME\" OMPI_ALLOW_RUN_AS_ROOT=1 "
-                                "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMP_NUM_THREADS=1 DEAL_II_NUM_THREADS=1 " +
-                                launcher + GEMMULE_EXECUTABLE + " " + arguments + " > .stdout 2> .stderr";
+    const std::string command = command_of(directory, arguments, n_processes, "exec ", "");
     process = fork();
     if (process != 0)
       return;

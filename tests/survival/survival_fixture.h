@@ -11,6 +11,7 @@
 
 #include "support/running_program.h"
 #include "support/statistics_table.h"
+#include "support/test_size.h"
 
 namespace Gemmule::Testing
 {

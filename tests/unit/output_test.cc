@@ -146,6 +146,36 @@ TEST_F(ParallelOutputTest, DirectoryIsCreatedAndCleared)
     EXPECT_TRUE(std::filesystem::exists(results + "/" + name)) << name;
 }
 
+TEST_F(ParallelOutputTest, DirectoryInUseIsRefusedOnAllRanks)
+{
+  const std::string results = path("results");
+  {
+    const OutputDirectory first(results, MPI_COMM_WORLD);
+    for (const bool resume : {false, true})
+    {
+      EXPECT_THROW(OutputDirectory(results, MPI_COMM_WORLD, resume), UserError);
+      const std::string message = message_of([&]() { OutputDirectory(results, MPI_COMM_WORLD, resume); });
+      EXPECT_EQ(message.find("Another run of gemmule is writing to the output directory '" + results +
+                             "' (process "),
+                0u)
+          << message;
+      EXPECT_NE(message.find("--output"), std::string::npos) << message;
+    }
+    EXPECT_NO_THROW(OutputDirectory(path("others"), MPI_COMM_WORLD));
+  }
+  EXPECT_NO_THROW(OutputDirectory(results, MPI_COMM_WORLD));
+}
+
+TEST_F(OutputTest, LockOfADirectoryThatNobodyHasUsed)
+{
+  EXPECT_EQ(DirectoryLock::acquire_existing(directory), nullptr);
+  EXPECT_FALSE(std::filesystem::exists(path(".lock"))) << "it must write nothing";
+  auto lock = DirectoryLock::acquire(directory);
+  EXPECT_THROW(DirectoryLock::acquire_existing(directory), UserError);
+  lock.reset();
+  EXPECT_NE(DirectoryLock::acquire_existing(directory), nullptr);
+}
+
 TEST_F(ParallelOutputTest, DirectoryThatCannotBeCreated)
 {
   on_rank_zero(MPI_COMM_WORLD, [&]() { std::ofstream(path("file")) << "in the way"; });

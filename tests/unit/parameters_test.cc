@@ -2,10 +2,12 @@
 #include <gemmule/parameters/all_parameters.h>
 #include <gemmule/parameters/errors.h>
 #include <gemmule/parameters/expression.h>
+#include <gemmule/parameters/raise_together.h>
 #include <gemmule/parameters/section.h>
 #include <gemmule/parameters/suggestion.h>
 
 #include <deal.II/base/function.h>
+#include <deal.II/base/mpi.h>
 #include <deal.II/base/parameter_handler.h>
 #include <deal.II/base/point.h>
 
@@ -61,7 +63,7 @@ TEST(Parameters, EveryKindOfValueSurvivesPrintingAndParsing)
   AllParameters original;
   original.end_time = 1. / 3.;
   original.output_directory = "some where";
-  original.random_seed = 4294967295u;
+  original.checkpoint.steps_between = 4294967295u;
   original.domain.lower_corner = {-2. / 3., -1.};
   original.domain.upper_corner = {1. / 3., 1.};
   original.membrane.level_set = "if(x<=0, x^2, 2*x^2) + y^2 - 0.01";
@@ -77,7 +79,7 @@ TEST(Parameters, EveryKindOfValueSurvivesPrintingAndParsing)
   read.parse(directory.write("case.prm", printed(original)));
   EXPECT_EQ(read.end_time, original.end_time);
   EXPECT_EQ(read.output_directory, original.output_directory);
-  EXPECT_EQ(read.random_seed, original.random_seed);
+  EXPECT_EQ(read.checkpoint.steps_between, original.checkpoint.steps_between);
   EXPECT_EQ(read.domain.lower_corner, original.domain.lower_corner);
   EXPECT_EQ(read.domain.upper_corner, original.domain.upper_corner);
   EXPECT_EQ(read.membrane.level_set, original.membrane.level_set);
@@ -261,5 +263,25 @@ TEST(Expression, NotFiniteAtAPoint)
   function->set_time(1.);
   const std::string message = message_of([&] { check_finite<2>(*function, {{2, 0}, {1, 5}}, "here"); });
   EXPECT_EQ(message.find("here: the expression has the value inf at (1, 5), t = 1."), 0u) << message;
+}
+
+TEST(Parameters, MessagesAreCompleteWhateverTheValueHolds)
+{
+  const std::string assignment("Output directory=a\0b", 20);
+  const std::string message = message_of([&] { AllParameters().parse("", {assignment}); });
+  EXPECT_EQ(
+      message,
+      "command line: 'Output directory=a\\x00b' holds the control character \\x00. Choose another value.");
+}
+
+TEST(ParallelErrors, WhatOneProcessFindsIsThrownByAll)
+{
+  const unsigned int rank = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
+  const unsigned int last = dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) - 1;
+  EXPECT_NO_THROW(raise_together("here", "", MPI_COMM_WORLD));
+  EXPECT_EQ(message_of([&] { raise_together("here", rank == last ? "wrong" : "", MPI_COMM_WORLD); }),
+            "here: wrong");
+  // Of several, that of the first.
+  EXPECT_EQ(message_of([&] { raise_together("here", std::to_string(rank), MPI_COMM_WORLD); }), "here: 0");
 }
 } // namespace Gemmule::Testing

@@ -50,8 +50,9 @@ public:
   void restore(const CoupledState<dim> &state);
 
   /**
-   * Computes the state at time() + dt. Throws SimulationError when that is impossible; accept() or another
-   * try follows.
+   * Computes the state at time() + dt; accept() or another try follows.
+   * @throws SimulationError when that is impossible, so that a smaller step may help; ParameterError when an
+   * expression of t is not finite at that time, or no flow at the walls, so that none will. On all ranks.
    */
   StepErrors try_step(double dt);
 

@@ -25,6 +25,7 @@ template <int dim>
 class InterfaceWriter;
 template <int dim>
 struct InterfaceSamples;
+class DirectoryLock;
 class OutputDirectory;
 class StepControl;
 template <int dim>
@@ -47,7 +48,7 @@ public:
   int run();
 
 private:
-  void open_output(const RunState<dim> *resumed);
+  void open_output(const RunState<dim> *resumed, std::unique_ptr<DirectoryLock> lock);
   void continue_from(RunState<dim> &state, const std::vector<std::string> &notes);
   std::vector<double> stops() const;
   void announce() const;

@@ -31,7 +31,9 @@ public:
   /**
    * Adds the lines u = u_infinity to @p constraints, which hold the hanging nodes and are not closed yet.
    * @param velocity dim components, its time set by the caller
-   * Throws UserError if the flux of u_infinity is too large to be an error of interpolation. Collective.
+   * Collective.
+   * @throws ParameterError on all ranks if u_infinity is not finite on the walls at its time, or if its flux
+   * is too large to be an error of interpolation
    */
   void constrain(const dealii::Function<dim> &velocity, dealii::AffineConstraints<double> &constraints);
 

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <gemmule/output/directory_lock.h>
+
+#include <memory>
 #include <mpi.h>
 #include <string>
 
@@ -8,7 +11,8 @@ namespace Gemmule
 /**
  * The directory of the results (design section 4). Construction creates it with its parents, checks that it
  * can be written to and, unless the run is resumed, removes what an earlier run left under the program's own
- * file names, so that nothing stale mixes with the new results. Other files stay.
+ * file names, so that nothing stale mixes with the new results. Other files stay. As long as the object lives
+ * no other run can use the directory.
  */
 class OutputDirectory
 {
@@ -17,9 +21,12 @@ public:
    * Collective.
    *
    * @param path relative to the working directory, or absolute
-   * @throws UserError, naming the path and the remedy, when the directory cannot be created or written to
+   * @param lock of the directory, on rank 0, if it has been taken before
+   * @throws UserError, naming the path and the remedy, when the directory cannot be created or written to, or
+   * when another run uses it
    */
-  OutputDirectory(const std::string &path, const MPI_Comm &communicator, bool resume = false);
+  OutputDirectory(const std::string &path, const MPI_Comm &communicator, bool resume = false,
+                  std::unique_ptr<DirectoryLock> lock = nullptr);
 
   const std::string &path() const { return directory; }
 
@@ -36,5 +43,6 @@ public:
 private:
   const std::string directory;
   const MPI_Comm communicator;
+  std::unique_ptr<DirectoryLock> lock; ///< on rank 0
 };
 } // namespace Gemmule

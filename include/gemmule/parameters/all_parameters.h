@@ -28,7 +28,6 @@ struct AllParameters
   /** Simulated time at which the run ends. */
   double end_time = 2.;
   std::string output_directory = "results";
-  unsigned int random_seed = 0;
 
   Domain domain;
   Fluid fluid;

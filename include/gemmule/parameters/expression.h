@@ -30,6 +30,15 @@ make_function(const std::string &expression, unsigned int n_components, const st
 
 /**
  * Evaluates all components of a function at the given points.
+ * @return what is wrong with the first value that is not a finite number, with its point and time; nothing if
+ * all are finite
+ */
+template <int dim>
+std::string not_finite_complaint(const dealii::Function<dim, double> &function,
+                                 const std::vector<dealii::Point<dim, double>> &points);
+
+/**
+ * Evaluates all components of a function at the given points.
  * @throws ParameterError naming @p where and the first point at which a value is not a finite number
  */
 template <int dim>

@@ -7,8 +7,11 @@ namespace Gemmule::Parameters
 /** The text for a message: without its middle when it is longer than a line. */
 std::string shortened(const std::string &text);
 
-/** The same in single quotes. */
+/** The same, printable, in single quotes. */
 std::string in_quotes(const std::string &text);
+
+/** The number as a message shows it: with few digits, which are enough to find a place or a time. */
+std::string short_number(double number, unsigned int digits = 3);
 
 /** The text with control characters, which could garble a terminal, written as \xNN. */
 std::string printable(const std::string &text);

@@ -1,0 +1,48 @@
+// Two runs at once in one directory.
+#include "survival_fixture.h"
+
+using namespace Gemmule::Testing;
+
+class TwoRuns : public Survival
+{
+protected:
+  void expect_refusal(const std::string &options, const unsigned int n_processes) const
+  {
+    const Result second = run_gemmule(directory, run(options), n_processes, time_limit(60));
+    EXPECT_EQ(second.exit_code, 1) << second.out << second.err;
+    EXPECT_NE(
+        second.err.find(
+            "gemmule: error: Another run of gemmule is writing to the output directory 'run' (process "),
+        std::string::npos)
+        << second.err;
+    EXPECT_EQ(second.err.find("gemmule: error:"), second.err.rfind("gemmule: error:")) << second.err;
+  }
+};
+
+TEST_F(TwoRuns, TheSecondIsRefusedAndTheFirstUndisturbed)
+{
+  RunningProgram first(directory, run("--set 'Checkpoint/Steps between checkpoints=2'"));
+  ASSERT_TRUE(first.wait_for([&] { return complete_checkpoints().size() == 2; }));
+  // Not for long enough to end.
+  first.send(SIGSTOP);
+  const std::size_t n = n_rows(results());
+  expect_refusal("", 1);
+  expect_refusal("--resume", 1);
+  expect_refusal("", 2);
+  EXPECT_EQ(n_rows(results()), n);
+  first.send(SIGCONT);
+  EXPECT_EQ(first.wait(), 0) << directory.read(".stderr");
+  Comparison().results(reference(), results());
+}
+
+TEST_F(TwoRuns, AKillReleasesTheDirectory)
+{
+  RunningProgram first(directory, run("--set 'Checkpoint/Steps between checkpoints=2'"));
+  ASSERT_TRUE(first.wait_for([&] { return !complete_checkpoints().empty(); }));
+  first.send(SIGKILL);
+  ASSERT_EQ(first.wait(), 128 + SIGKILL);
+  resume_to_the_end();
+  Comparison().results(reference(), results());
+  // Nor does an end of the ordinary kind leave anything locked.
+  EXPECT_EQ(run_gemmule(directory, run("--set 'End time=0.002'")).exit_code, 0);
+}
