@@ -1,4 +1,6 @@
 // Bending and the arclength constraints in the whole time step: relaxation rates, energy, conservation.
+#include <gemmule/parameters/errors.h>
+
 #include <cmath>
 #include <gtest/gtest.h>
 
@@ -229,4 +231,39 @@ TEST(ParallelArclength, PenaltyIsStableHoweverStiff)
     EXPECT_LT(rows.size(), 60u);
     EXPECT_LT(largest_stretch(rows), 2. / stiffness + 2e-5);
   }
+}
+
+// Waves as short as the cells grow at the rate |sigma| k / 4 where nothing resists them: from round-off to
+// the size of the membrane within one unit of time here. With the grid's rigidity the fastest waves are
+// eleven cells long and grow by a factor of five.
+TEST(NegativeTension, WithoutRigidityDoesNotBreakTheMembraneUp)
+{
+  double largest_curvature[2];
+  for (const bool resists : {false, true})
+  {
+    AllParameters parameters = small_case_with_tension("-1");
+    parameters.membrane.level_set = "x^2+y^2-0.25";
+    parameters.bending.grid_scale_rigidity = resists ? 1. : 0.;
+    double &largest = largest_curvature[resists] = 0.;
+    try
+    {
+      const auto rows = run_case(parameters, 50, 0.02);
+      for (const auto &row : rows)
+        largest = std::max(largest, row.curvature_max);
+      if (resists)
+      {
+        EXPECT_LT(largest_drift(rows, &StatisticsRow::area), 1e-10);
+        EXPECT_EQ(rows.back().components, 1u);
+        const double h = 2. / 32.;
+        EXPECT_NEAR(rows.back().grid_scale_rigidity, h * h, 1e-15);
+      }
+    }
+    catch (const SimulationError &)
+    {
+      EXPECT_FALSE(resists);
+      largest = 1e10;
+    }
+  }
+  EXPECT_LT(largest_curvature[1], 2.2); // that of the circle is 2
+  EXPECT_GT(largest_curvature[0], 4.);
 }

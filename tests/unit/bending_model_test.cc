@@ -101,3 +101,44 @@ TEST(BendingOfTheMembrane, LeavesTheTensionOfAUniformStateAlone)
       std::abs(model.tension(f, t, model.local_chemical_potential(f, t, curvature).value, 0.) - without), 0.1)
       << "the test would not notice the missing term";
 }
+
+TEST(GridScaleRigidity, IsWhatThePhasesLackAndNeverFalls)
+{
+  Parameters::Bending parameters;
+  parameters.rigidity_0 = 2e-3;
+  parameters.rigidity_1 = 1e-3;
+  parameters.grid_scale_rigidity = 0.5;
+  BendingModel model(parameters);
+  const double h = 0.1;
+  model.resist_negative_tension(0.7, h);
+  EXPECT_EQ(model.grid_scale_rigidity(), 0.);
+  model.resist_negative_tension(-0.1, h); // 5e-4 is less than both phases have
+  EXPECT_EQ(model.grid_scale_rigidity(), 0.);
+  model.resist_negative_tension(-0.6, h);
+  EXPECT_NEAR(model.grid_scale_rigidity(), 2e-3, 1e-15);
+  model.resist_negative_tension(-0.3, h);
+  EXPECT_NEAR(model.grid_scale_rigidity(), 2e-3, 1e-15);
+  EXPECT_NEAR(model.largest_rigidity(), 4e-3, 1e-15);
+}
+
+TEST(GridScaleRigidity, AddsItsEnergyWithItsDerivative)
+{
+  Parameters::Bending parameters = two_phases(Parameters::Interpolation::linear);
+  BendingModel model(parameters), bare(parameters);
+  model.set_grid_scale_rigidity(0.3);
+  const double curvature = 1.7, c = 0.4, eps = 1e-5;
+  const auto with = model.evaluate(curvature, c), without = bare.evaluate(curvature, c);
+  EXPECT_NEAR(with.energy - without.energy, 0.15 * curvature * curvature, 1e-14);
+  EXPECT_NEAR(with.moment,
+              (model.evaluate(curvature + eps, c).energy - model.evaluate(curvature - eps, c).energy) /
+                  (2. * eps),
+              1e-8);
+  EXPECT_DOUBLE_EQ(with.by_composition, without.by_composition);
+
+  // A membrane without any rigidity of its own has it, too.
+  BendingModel soft{Parameters::Bending()};
+  EXPECT_FALSE(soft.is_active());
+  soft.set_grid_scale_rigidity(0.3);
+  EXPECT_TRUE(soft.is_active());
+  EXPECT_NEAR(soft.evaluate(2., 0.5).moment, 0.6, 1e-15);
+}
