@@ -11,6 +11,10 @@ using namespace dealii;
 
 namespace
 {
+  // The normal of the nearest sample tells the side if its angle with the direction to a point is below 25
+  // degrees.
+  constexpr double well_aligned = 0.9;
+
   /** The level set of a patch in units of the cell size. */
   template <int dim>
   PolynomialValue<dim> local_level_set(const MembranePatch<dim> &patch, const Point<dim> &unit_point)
@@ -276,7 +280,16 @@ double MembraneProjection<dim>::approximate_distance(const Point<dim> &x) const
 {
   const Sample &closest = nearest(x);
   const double distance = x.distance(closest.point);
-  double alignment = 0.;
+  const auto alignment_of = [&](const Sample &sample)
+  {
+    const Tensor<1, dim> difference = x - sample.point;
+    return difference * sample.normal / std::max(difference.norm(), 1e-300);
+  };
+  double alignment = alignment_of(closest);
+  if (std::abs(alignment) > well_aligned)
+    return std::copysign(distance, alignment);
+
+  // Beside a corner: another sample that is hardly farther may tell more.
   const Key center = bin_of(closest.point);
   const int n_bins = dim == 2 ? 9 : 27;
   for (int b = 0; b < n_bins; ++b)
@@ -290,13 +303,9 @@ double MembraneProjection<dim>::approximate_distance(const Point<dim> &x) const
     for (const unsigned int i : bin->second)
     {
       const Sample &sample = all_samples[i];
-      const Tensor<1, dim> difference = x - sample.point;
-      const double length = difference.norm();
-      if (length > distance + 0.5 * patches[sample.patch].size || length == 0.)
-        continue;
-      const double cosine = difference * sample.normal / length;
-      if (std::abs(cosine) > std::abs(alignment))
-        alignment = cosine;
+      if (x.distance(sample.point) < distance + 0.5 * patches[sample.patch].size &&
+          std::abs(alignment_of(sample)) > std::abs(alignment))
+        alignment = alignment_of(sample);
     }
   }
   return std::copysign(distance, alignment);

@@ -13,7 +13,7 @@ void BendingModel::resist_negative_tension(const double smallest_tension, const 
 {
   const double wanted =
       parameters.grid_scale_rigidity * std::max(-smallest_tension, 0.) * cell_size * cell_size;
-  grid_scale = std::max(grid_scale, wanted - std::min(parameters.rigidity_0, parameters.rigidity_1));
+  grid_scale = std::max(0., wanted - std::min(parameters.rigidity_0, parameters.rigidity_1));
 }
 
 BendingModel::Local BendingModel::evaluate(const double curvature, const double composition) const
@@ -45,7 +45,8 @@ BendingModel::Local BendingModel::evaluate(const double curvature, const double 
 
   local.rigidity += grid_scale;
   local.moment += grid_scale * curvature;
-  local.energy += 0.5 * grid_scale * curvature * curvature;
+  local.numerical_energy = 0.5 * grid_scale * curvature * curvature;
+  local.energy += local.numerical_energy;
   return local;
 }
 } // namespace Gemmule

@@ -144,9 +144,8 @@ void Bending::add_parameters(dealii::ParameterHandler &prm)
       "Grid-scale rigidity", grid_scale_rigidity,
       "C of a numerical rigidity C |sigma| h^2 that a membrane under negative tension sigma gets, as far as "
       "its "
-      "own is smaller; h is the edge of the cells of 'Mesh/Membrane level' and sigma the smallest tension so "
-      "far. The wrinkles that grow fastest are then 2 pi sqrt(3 C) cells long, instead of as short as "
-      "possible "
+      "own is smaller; h is the edge of the cells of 'Mesh/Membrane level' and sigma the smallest tension. "
+      "The wrinkles that grow fastest are then 2 pi sqrt(3 C) cells long, instead of as short as possible "
       "(dimensionless); 0: none, and the run may end where they break the membrane up.",
       Range::non_negative());
 }

@@ -113,7 +113,7 @@ void MembraneBending<dim>::compute_moment(const TraceField<dim> *const concentra
       const auto bending = model.evaluate(curvature_at_points[k][q], composition);
       moments[k][q] = bending.moment;
       energies[k][q] = bending.energy;
-      energy += cell.surface_weights[q] * bending.energy;
+      energy += cell.surface_weights[q] * (bending.energy - bending.numerical_energy);
       for (unsigned int i = 0; i < Basis::n; ++i)
         local[i] += cell.surface_weights[q] * bending.moment * point.values[i];
     }

@@ -36,6 +36,8 @@ const std::vector<ShippedCase> shipped_cases = {
     {"examples/bending.prm", " --set 'End time=0.004'", 4, true},
     {"examples/locomotion.prm", " --set 'End time=0.008' --set 'Mesh/Phase boundary level=5'", 4, true},
     {"examples/wrinkling.prm", " --set 'End time=0.008' --set 'Mesh/Membrane level=5'", 4, false},
+    {"examples/budding.prm",
+     " --set 'End time=0.008' --set 'Mesh/Membrane level=5' --set 'Mesh/Phase boundary level=5'", 4, true},
     {"examples/bud.prm", " --set 'End time=0.008' --set 'Mesh/Finest level=5'", 4, true},
     {"paper/unconstrained_ellipse.prm", short_paper_run, 4, true},
     {"paper/constrained_ellipse.prm", short_paper_run, 4, true},

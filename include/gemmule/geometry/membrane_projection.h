@@ -40,9 +40,9 @@ public:
   ClosestPoint<dim> project(const dealii::Point<dim> &x, const ClosestPoint<dim> &guess) const;
 
   /**
-   * Distance to the nearest sample, with the sign that the best aligned normal of the samples near it gives:
-   * cheap, error of the order of the sample spacing squared over distance. Beside a corner of the membrane
-   * the nearest normal alone can be wrong.
+   * Distance to the nearest sample: cheap, error of the order of the sample spacing squared over distance.
+   * Beside a corner of the membrane, where the nearest normal can point the wrong way, the best aligned one
+   * nearby gives the sign.
    */
   double approximate_distance(const dealii::Point<dim> &x) const;
 

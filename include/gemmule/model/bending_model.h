@@ -24,10 +24,11 @@ public:
   double largest_rigidity() const;
 
   /**
-   * Adds the energy (k_h/2) kappa^2 of a numerical rigidity k_h, which holds negative tension |sigma| on
-   * cells of edge h together: k_h is the least, but not less than before, with which both phases have at
-   * least C |sigma| h^2. The waves that grow fastest then have the length 2 pi sqrt(3 C) h, instead of the
-   * shortest there is. C: "Membrane/Bending/Grid-scale rigidity". Source: doc/model.md, "Negative tension".
+   * Sets the numerical rigidity k_h, with the energy (k_h/2) kappa^2, that holds a membrane under negative
+   * tension sigma together on cells of edge h: the least with which both phases have C |sigma| h^2, 0 if
+   * tension is not negative. The waves that grow fastest then have the length 2 pi sqrt(3 C) h, instead of
+   * the shortest there is. C: "Membrane/Bending/Grid-scale rigidity". Source: doc/model.md, "Negative
+   * tension".
    */
   void resist_negative_tension(double smallest_tension, double cell_size);
 
@@ -39,7 +40,8 @@ public:
   {
     double rigidity;              ///< k
     double spontaneous_curvature; ///< kappa_0
-    double energy;                ///< w
+    double energy;                ///< w, with the part of k_h
+    double numerical_energy;      ///< the part of k_h
     double moment;                ///< w_kappa = k (kappa - kappa_0)
     double by_composition;        ///< w_c = k'/2 (kappa - kappa_0)^2 - k (kappa - kappa_0) kappa_0'
     double by_composition_twice;  ///< w_cc

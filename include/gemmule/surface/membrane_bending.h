@@ -54,7 +54,7 @@ public:
   /** w - m kappa = (k/2)(kappa_0^2 - kappa^2): what multiplies div_s v in the force in 2D. */
   PointValues tension() const;
 
-  /** int w over the membrane, on all ranks. */
+  /** int w over the membrane, without the part of the grid-scale rigidity, on all ranks. */
   double energy() const { return total_energy; }
 
   /** The space of curvature and moment on the cut cells. */
