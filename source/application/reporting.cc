@@ -208,9 +208,11 @@ StatisticsRow make_statistics(const CoupledSystem<dim> &system, const InterfaceS
     row.energy_constraint =
         0.5 * arclength.penalty * std::pow(row.arclength - system.reference_arclength(), 2);
   if (const auto *const bending = system.get_bending())
+  {
     row.energy_bending = bending->energy();
+    row.grid_scale_rigidity = bending->largest_numerical_rigidity();
+  }
   row.energy_total = row.energy_surface + row.energy_phase + row.energy_constraint + row.energy_bending;
-  row.grid_scale_rigidity = system.get_model().bending().grid_scale_rigidity();
   row.dissipation_viscous = flow.viscous_dissipation();
   row.max_velocity = flow.max_velocity();
   return row;

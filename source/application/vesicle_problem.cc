@@ -219,7 +219,7 @@ template <int dim>
 std::string VesicleProblem<dim>::end_of_the_model() const
 {
   // Concentrations are relative to one; the composition f / total loses its meaning long before zero.
-  constexpr double vanishing = 1e-2;
+  constexpr double vanishing = 0.1;
   if (system->get_surface() == nullptr || row.f_total_min > vanishing)
     return "";
   return " The total concentration has fallen to " + rounded(row.f_total_min) +
@@ -304,7 +304,7 @@ template <int dim>
 void VesicleProblem<dim>::warn_of_negative_tension()
 {
   // With enough bending rigidity the wrinkles have a wavelength of their own.
-  if (row.tension_min >= 0. || (system->get_bending() != nullptr && row.grid_scale_rigidity == 0.))
+  if (row.tension_min >= 0.)
     return;
   const std::string since =
       "the tension is negative on a part of the membrane since t = " + rounded(row.time) + " (minimum " +
@@ -316,7 +316,7 @@ void VesicleProblem<dim>::warn_of_negative_tension()
                        "Grid-scale rigidity') makes the fastest wrinkles " +
                        rounded(2. * numbers::PI * std::sqrt(3. * parameters.bending.grid_scale_rigidity)) +
                        " cells long. What depends on them depends on the mesh (doc/model.md).");
-  else
+  else if (system->get_bending() == nullptr && system->get_model().bending().grid_scale_rigidity() == 0.)
     log->warn_once(
         "negative tension",
         since + "there is no bending rigidity: short waves of the shape grow at the rate |sigma| k / 4, "

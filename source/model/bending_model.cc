@@ -6,14 +6,12 @@ namespace Gemmule
 {
 double BendingModel::largest_rigidity() const
 {
-  return std::max(parameters.rigidity_0, parameters.rigidity_1) + grid_scale;
+  return std::max({parameters.rigidity_0, parameters.rigidity_1, grid_scale});
 }
 
 void BendingModel::resist_negative_tension(const double smallest_tension, const double cell_size)
 {
-  const double wanted =
-      parameters.grid_scale_rigidity * std::max(-smallest_tension, 0.) * cell_size * cell_size;
-  grid_scale = std::max(0., wanted - std::min(parameters.rigidity_0, parameters.rigidity_1));
+  grid_scale = parameters.grid_scale_rigidity * std::max(-smallest_tension, 0.) * cell_size * cell_size;
 }
 
 BendingModel::Local BendingModel::evaluate(const double curvature, const double composition) const
@@ -43,9 +41,10 @@ BendingModel::Local BendingModel::evaluate(const double curvature, const double 
   local.by_composition = by_weight * s_c;
   local.by_composition_twice = by_weight_twice * s_c * s_c + by_weight * s_cc;
 
-  local.rigidity += grid_scale;
-  local.moment += grid_scale * curvature;
-  local.numerical_energy = 0.5 * grid_scale * curvature * curvature;
+  local.numerical_rigidity = std::max(grid_scale - local.rigidity, 0.);
+  local.rigidity += local.numerical_rigidity;
+  local.moment += local.numerical_rigidity * curvature;
+  local.numerical_energy = 0.5 * local.numerical_rigidity * curvature * curvature;
   local.energy += local.numerical_energy;
   return local;
 }

@@ -4,6 +4,8 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
+
 namespace Gemmule
 {
 using namespace dealii;
@@ -98,7 +100,7 @@ void MembraneBending<dim>::compute_moment(const TraceField<dim> *const concentra
   std::vector<double> solution(space.n_unknowns(), 0.);
   std::array<double, Basis::n> local;
   SurfacePoint<dim> point;
-  double energy = 0.;
+  double energy = 0., largest_numerical_rigidity = 0.;
   for (unsigned int b = 0; b < space.band().size(); ++b)
   {
     const CutCell<dim> &cell = *space.band()[b].cut;
@@ -113,6 +115,7 @@ void MembraneBending<dim>::compute_moment(const TraceField<dim> *const concentra
       const auto bending = model.evaluate(curvature_at_points[k][q], composition);
       moments[k][q] = bending.moment;
       energies[k][q] = bending.energy;
+      largest_numerical_rigidity = std::max(largest_numerical_rigidity, bending.numerical_rigidity);
       energy += cell.surface_weights[q] * (bending.energy - bending.numerical_energy);
       for (unsigned int i = 0; i < Basis::n; ++i)
         local[i] += cell.surface_weights[q] * bending.moment * point.values[i];
@@ -122,6 +125,7 @@ void MembraneBending<dim>::compute_moment(const TraceField<dim> *const concentra
   system.solve(solution);
   moment_field = space.extract(solution);
   total_energy = Utilities::MPI::sum(energy, space.communicator());
+  numerical_rigidity = Utilities::MPI::max(largest_numerical_rigidity, space.communicator());
 }
 
 template <int dim>

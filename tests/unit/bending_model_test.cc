@@ -102,33 +102,39 @@ TEST(BendingOfTheMembrane, LeavesTheTensionOfAUniformStateAlone)
       << "the test would not notice the missing term";
 }
 
-TEST(GridScaleRigidity, IsWhatThePhasesLack)
+TEST(GridScaleRigidity, IsWhatAPhaseLacks)
 {
   Parameters::Bending parameters;
   parameters.rigidity_0 = 2e-3;
   parameters.rigidity_1 = 1e-3;
   parameters.grid_scale_rigidity = 0.5;
   BendingModel model(parameters);
-  const double h = 0.1;
+  const double h = 0.1, curvature = 3.;
+  const auto numerical = [&](const double c) { return model.evaluate(curvature, c).numerical_rigidity; };
   model.resist_negative_tension(0.7, h);
-  EXPECT_EQ(model.grid_scale_rigidity(), 0.);
+  EXPECT_EQ(numerical(0.), 0.);
+  EXPECT_EQ(numerical(1.), 0.);
   model.resist_negative_tension(-0.1, h); // 5e-4 is less than both phases have
-  EXPECT_EQ(model.grid_scale_rigidity(), 0.);
-  model.resist_negative_tension(-0.6, h);
-  EXPECT_NEAR(model.grid_scale_rigidity(), 2e-3, 1e-15);
-  EXPECT_NEAR(model.largest_rigidity(), 4e-3, 1e-15);
-  model.resist_negative_tension(-0.3, h);
-  EXPECT_NEAR(model.grid_scale_rigidity(), 5e-4, 1e-15);
-  model.resist_negative_tension(0.1, h);
-  EXPECT_EQ(model.grid_scale_rigidity(), 0.);
+  EXPECT_EQ(numerical(0.), 0.);
+  EXPECT_EQ(numerical(1.), 0.);
+  EXPECT_NEAR(model.largest_rigidity(), 2e-3, 1e-15);
+  model.resist_negative_tension(-0.3, h); // 1.5e-3
+  EXPECT_EQ(numerical(0.), 0.);
+  EXPECT_NEAR(numerical(1.), 5e-4, 1e-15);
+  model.resist_negative_tension(-0.6, h); // 3e-3
+  EXPECT_NEAR(numerical(0.), 1e-3, 1e-15);
+  EXPECT_NEAR(numerical(1.), 2e-3, 1e-15);
+  EXPECT_NEAR(model.largest_rigidity(), 3e-3, 1e-15);
+  model.resist_negative_tension(0., h);
+  EXPECT_EQ(numerical(1.), 0.);
 }
 
 TEST(GridScaleRigidity, AddsItsEnergyWithItsDerivative)
 {
   Parameters::Bending parameters = two_phases(Parameters::Interpolation::linear);
   BendingModel model(parameters), bare(parameters);
-  model.set_grid_scale_rigidity(0.3);
-  const double curvature = 1.7, c = 0.4, eps = 1e-5;
+  const double curvature = 1.7, c = 0.4, eps = 1e-5, missing = 0.3;
+  model.set_grid_scale_rigidity(bare.evaluate(curvature, c).rigidity + missing);
   const auto with = model.evaluate(curvature, c), without = bare.evaluate(curvature, c);
   EXPECT_NEAR(with.energy - without.energy, 0.15 * curvature * curvature, 1e-14);
   EXPECT_NEAR(with.numerical_energy, 0.15 * curvature * curvature, 1e-14);

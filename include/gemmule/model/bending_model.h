@@ -20,15 +20,15 @@ public:
 
   bool is_active() const { return parameters.is_active() || grid_scale > 0.; }
 
-  /** The larger rigidity of the two phases, with that of the grid scale. */
+  /** The larger rigidity of the two phases, or that of the grid scale. */
   double largest_rigidity() const;
 
   /**
-   * Sets the numerical rigidity k_h, with the energy (k_h/2) kappa^2, that holds a membrane under negative
-   * tension sigma together on cells of edge h: the least with which both phases have C |sigma| h^2, 0 if
-   * tension is not negative. The waves that grow fastest then have the length 2 pi sqrt(3 C) h, instead of
-   * the shortest there is. C: "Membrane/Bending/Grid-scale rigidity". Source: doc/model.md, "Negative
-   * tension".
+   * Sets the rigidity k_h = C |sigma| h^2 that holds a membrane under negative tension sigma together on
+   * cells of edge h; 0 if tension is not negative. Where a phase has less, a numerical rigidity with the
+   * energy (k_h - k) kappa^2 / 2 makes up for it. The waves that grow fastest then have the length 2 pi
+   * sqrt(3 C) h, instead of the shortest there is. C: "Membrane/Bending/Grid-scale rigidity". Source:
+   * doc/model.md, "Negative tension".
    */
   void resist_negative_tension(double smallest_tension, double cell_size);
 
@@ -38,10 +38,11 @@ public:
 
   struct Local
   {
-    double rigidity;              ///< k
+    double rigidity;              ///< k, or k_h if that is more
+    double numerical_rigidity;    ///< the part of it that the phase does not have
     double spontaneous_curvature; ///< kappa_0
-    double energy;                ///< w, with the part of k_h
-    double numerical_energy;      ///< the part of k_h
+    double energy;                ///< w, with the part of the numerical rigidity
+    double numerical_energy;      ///< that part
     double moment;                ///< w_kappa = k (kappa - kappa_0)
     double by_composition;        ///< w_c = k'/2 (kappa - kappa_0)^2 - k (kappa - kappa_0) kappa_0'
     double by_composition_twice;  ///< w_cc

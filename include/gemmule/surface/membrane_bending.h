@@ -57,6 +57,10 @@ public:
   /** int w over the membrane, without the part of the grid-scale rigidity, on all ranks. */
   double energy() const { return total_energy; }
 
+  /** Largest numerical rigidity that negative tension has asked for somewhere on the membrane, on all ranks.
+   */
+  double largest_numerical_rigidity() const { return numerical_rigidity; }
+
   /** The space of curvature and moment on the cut cells. */
   const TraceSpace<dim> &trace_space() const { return space; }
   const BendingModel &get_model() const { return model; }
@@ -69,6 +73,6 @@ private:
   ElementSystem system;
   PointValues curvature_at_points, moments, energies;
   TraceField<dim> moment_field;
-  double total_energy = 0.;
+  double total_energy = 0., numerical_rigidity = 0.;
 };
 } // namespace Gemmule
