@@ -159,8 +159,7 @@ template <int dim>
 void CoupledSystem<dim>::check_refined_band() const
 {
   const double allowed =
-      parameters.domain.shortest_edge() *
-      std::ldexp(1. + 1e-10, -static_cast<int>(adaptation.limited(parameters.mesh.membrane_level)));
+      (1. + 1e-10) * parameters.domain.cell_size(adaptation.limited(parameters.mesh.membrane_level));
   double largest = 0.;
   for (const auto &cell : geometry.cut_cells())
     largest = std::max(largest, cell.size);
@@ -469,9 +468,7 @@ void CoupledSystem<dim>::accept()
 template <int dim>
 void CoupledSystem<dim>::resist_negative_tension()
 {
-  const double cell_size =
-      parameters.domain.shortest_edge() *
-      std::ldexp(1., -static_cast<int>(adaptation.limited(parameters.mesh.membrane_level)));
+  const double cell_size = parameters.domain.cell_size(adaptation.limited(parameters.mesh.membrane_level));
   model.bending().resist_negative_tension(membrane_flow.smallest_tension(), cell_size);
 }
 

@@ -117,7 +117,7 @@ void InitialMembrane<dim>::check_wall(const Triangulation &triangulation, const 
 {
   if (count_wall_cells(triangulation, geometry, communicator).not_outside == 0)
     return;
-  const double edge = parameters.domain.shortest_edge() * std::ldexp(1., -static_cast<int>(finest_level));
+  const double edge = parameters.domain.cell_size(finest_level);
   InitialChecks<dim>(parameters)
       .fail_level_set(
           "describes a membrane that touches a wall of the box, comes closer to it than one of the finest "

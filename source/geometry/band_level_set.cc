@@ -7,15 +7,6 @@ namespace Gemmule
 using namespace dealii;
 
 template <int dim>
-std::size_t CartesianCellMap<dim>::KeyHash::operator()(const Key &key) const
-{
-  std::size_t hash = 1469598103934665603ull;
-  for (const int k : key)
-    hash = (hash ^ static_cast<unsigned int>(k)) * 1099511628211ull;
-  return hash ^ (hash >> 29);
-}
-
-template <int dim>
 void CartesianCellMap<dim>::insert(const Point<dim> &corner, const double size, const unsigned int id)
 {
   unsigned int s = 0;

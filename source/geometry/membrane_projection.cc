@@ -38,15 +38,6 @@ namespace
 } // namespace
 
 template <int dim>
-std::size_t MembraneProjection<dim>::KeyHash::operator()(const Key &key) const
-{
-  std::size_t hash = 1469598103934665603ull;
-  for (const int k : key)
-    hash = (hash ^ static_cast<unsigned int>(k)) * 1099511628211ull;
-  return hash ^ (hash >> 29);
-}
-
-template <int dim>
 MembraneProjection<dim>::MembraneProjection(const std::vector<MembranePatch<dim>> &patches_,
                                             const Point<dim> &origin_)
     : patches(patches_), origin(origin_), patch_map(origin_)

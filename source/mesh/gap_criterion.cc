@@ -15,15 +15,6 @@ namespace
 } // namespace
 
 template <int dim>
-std::size_t GapCriterion<dim>::KeyHash::operator()(const Key &key) const
-{
-  std::size_t hash = 1469598103934665603ull;
-  for (const int k : key)
-    hash = (hash ^ static_cast<unsigned int>(k)) * 1099511628211ull;
-  return hash ^ (hash >> 29);
-}
-
-template <int dim>
 GapCriterion<dim>::GapCriterion(const RefinementContext<dim> &context)
     : box(context.box), cells(context.parameters.cells_per_gap),
       membrane_level(context.parameters.membrane_level), finest_level(context.parameters.largest_level()),
@@ -51,7 +42,7 @@ void GapCriterion<dim>::prepare(const std::vector<MembraneSample<dim>> &samples)
   for (auto &hash : hashes)
   {
     // One sample for each small cube and orthant of the normal: the sheets in a cube are kept apart.
-    std::array<std::unordered_set<Key, KeyHash>, 1 << dim> taken;
+    std::array<std::unordered_set<Key, LatticeKeyHash<dim>>, 1 << dim> taken;
     for (const auto &sample : samples)
     {
       unsigned int orthant = 0;

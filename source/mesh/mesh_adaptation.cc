@@ -10,15 +10,6 @@ namespace Gemmule
 using namespace dealii;
 
 template <int dim>
-std::size_t MeshAdaptation<dim>::KeyHash::operator()(const Key &key) const
-{
-  std::size_t hash = 1469598103934665603ull;
-  for (const int k : key)
-    hash = (hash ^ static_cast<unsigned int>(k)) * 1099511628211ull;
-  return hash ^ (hash >> 29);
-}
-
-template <int dim>
 MeshAdaptation<dim>::MeshAdaptation(Triangulation &triangulation, const Parameters::Mesh &parameters,
                                     const double phase_boundary_width)
     : triangulation(triangulation),

@@ -99,6 +99,11 @@ double Domain::shortest_edge() const
   return shortest;
 }
 
+double Domain::cell_size(const unsigned int level) const
+{
+  return std::ldexp(shortest_edge(), -static_cast<int>(level));
+}
+
 std::vector<unsigned int> Domain::coarse_cells() const
 {
   std::vector<unsigned int> cells;

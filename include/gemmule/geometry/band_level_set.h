@@ -1,5 +1,6 @@
 #pragma once
 
+#include <gemmule/algebra/lattice_key.h>
 #include <gemmule/geometry/membrane_snapshot.h>
 
 #include <optional>
@@ -20,14 +21,10 @@ public:
   int find(const dealii::Point<dim> &x) const;
 
 private:
-  using Key = std::array<int, dim>;
-  struct KeyHash
-  {
-    std::size_t operator()(const Key &key) const;
-  };
+  using Key = LatticeKey<dim>;
   dealii::Point<dim> origin;
   std::vector<double> sizes;
-  std::vector<std::unordered_map<Key, unsigned int, KeyHash>> cells; ///< for each size
+  std::vector<std::unordered_map<Key, unsigned int, LatticeKeyHash<dim>>> cells; ///< for each size
 };
 
 /** The level set of an earlier time level in the band around its membrane, whatever the mesh is now. */

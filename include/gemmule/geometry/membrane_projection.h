@@ -1,5 +1,6 @@
 #pragma once
 
+#include <gemmule/algebra/lattice_key.h>
 #include <gemmule/geometry/band_level_set.h>
 #include <gemmule/geometry/membrane_snapshot.h>
 
@@ -72,11 +73,7 @@ public:
   double curvature(const Sample &sample) const;
 
 private:
-  using Key = std::array<int, dim>;
-  struct KeyHash
-  {
-    std::size_t operator()(const Key &key) const;
-  };
+  using Key = LatticeKey<dim>;
 
   Key bin_of(const dealii::Point<dim> &x) const;
   unsigned int nearest_sample(const dealii::Point<dim> &x) const;
@@ -87,7 +84,7 @@ private:
   std::vector<Sample> all_samples;
   CartesianCellMap<dim> patch_map;
   double bin_size = 0.;
-  std::unordered_map<Key, std::vector<unsigned int>, KeyHash> bins; ///< samples by bin
-  std::vector<unsigned int> primary_samples;                        ///< one per patch, for far points
+  std::unordered_map<Key, std::vector<unsigned int>, LatticeKeyHash<dim>> bins; ///< samples by bin
+  std::vector<unsigned int> primary_samples; ///< one per patch, for far points
 };
 } // namespace Gemmule

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <gemmule/algebra/lattice_key.h>
 #include <gemmule/mesh/refinement_criterion.h>
 
 #include <unordered_map>
@@ -28,11 +29,7 @@ public:
   unsigned int level(const MembraneSample<dim> &sample, double margin) const override;
 
 private:
-  using Key = std::array<int, dim>;
-  struct KeyHash
-  {
-    std::size_t operator()(const Key &key) const;
-  };
+  using Key = LatticeKey<dim>;
   struct Sheet
   {
     dealii::Point<dim> point;
@@ -41,7 +38,7 @@ private:
   struct Hash
   {
     double radius; ///< of the bins, and of the distances that are found
-    std::unordered_map<Key, std::vector<Sheet>, KeyHash> bins;
+    std::unordered_map<Key, std::vector<Sheet>, LatticeKeyHash<dim>> bins;
   };
 
   Key key(const dealii::Point<dim> &point, double size) const;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <gemmule/algebra/lattice_key.h>
 #include <gemmule/mesh/refinement_criteria.h>
 
 #include <deal.II/distributed/tria.h>
@@ -57,13 +58,9 @@ public:
   void set_lowered_levels(const unsigned int n) { n_lowered_levels = n; }
 
 private:
-  using Key = std::array<int, dim>;
-  struct KeyHash
-  {
-    std::size_t operator()(const Key &key) const;
-  };
+  using Key = LatticeKey<dim>;
   /** For each level the cells that must have at least that level. */
-  using NeededCells = std::vector<std::unordered_set<Key, KeyHash>>;
+  using NeededCells = std::vector<std::unordered_set<Key, LatticeKeyHash<dim>>>;
   /** The level that is needed at each sample. */
   using Levels = std::vector<unsigned int>;
 

@@ -29,6 +29,8 @@ struct Domain
   std::vector<unsigned int> coarse_cells() const;
   /** Length of the shortest edge. */
   double shortest_edge() const;
+  /** Edge of the cells of a level of the mesh. */
+  double cell_size(unsigned int level) const;
   /** The corners as points; the number of values has to be dim. */
   template <int dim>
   dealii::Point<dim, double> lower() const;
