@@ -14,7 +14,13 @@ namespace Gemmule
 namespace
 {
   /** Of the whole checkpoint; raised when an older program could not read it, or not continue from it. */
-  const std::string schema_version = "1";
+  const std::string schema_version = "2";
+
+  /** The last row of the statistics is in the state: a program with other columns cannot continue from it. */
+  std::string n_statistics_columns()
+  {
+    return std::to_string(statistics_columns().size());
+  }
 
   const std::string state_file = "state.h5", parameter_file = "parameters.prm",
                     interface_file = "interface.h5";
@@ -78,8 +84,12 @@ RunState<dim> Checkpoints<dim>::load(std::vector<std::string> &notes)
           throw UserError(message + " Start the run anew without --resume, or name the right directory with "
                                     "--output.");
         }
-        const auto version = checkpoint->metadata.find("schema_version");
-        if (version == checkpoint->metadata.end() || version->second != schema_version)
+        const auto has = [&](const std::string &name, const std::string &value)
+        {
+          const auto entry = checkpoint->metadata.find(name);
+          return entry != checkpoint->metadata.end() && entry->second == value;
+        };
+        if (!has("schema_version", schema_version) || !has("statistics_columns", n_statistics_columns()))
           throw UserError("--resume: " + checkpoint->path +
                           " was written by another version of gemmule, in a form that this one does not "
                           "read. Resume with that version, or start anew without --resume.");
@@ -161,6 +171,7 @@ void Checkpoints<dim>::write_files(RunState<dim> &state, const Provenance &prove
 
     CheckpointDirectory::Metadata metadata;
     metadata["schema_version"] = schema_version;
+    metadata["statistics_columns"] = n_statistics_columns();
     metadata["program_version"] = program_version();
     metadata["time"] = Parameters::to_text(state.row.time);
     metadata["step"] = std::to_string(state.row.step);
