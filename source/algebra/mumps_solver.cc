@@ -33,9 +33,23 @@ struct MumpsSolver::Instance
 
   void check(const std::string &stage) const
   {
-    if (infog(1) < 0)
-      throw SimulationError("The direct solver MUMPS failed in its " + stage + " (INFOG(1) = " +
-                            std::to_string(infog(1)) + ", INFOG(2) = " + std::to_string(infog(2)) + ").");
+    // MUMPS users' guide, "Error diagnostics"
+    constexpr int singular = -10, allocation_failed = -13, memory_limit = -19;
+    switch (infog(1))
+    {
+    case singular:
+      throw SimulationError(
+          "The direct solver MUMPS finds the matrix singular: the mesh does not resolve the membrane.");
+    case allocation_failed:
+    case memory_limit:
+      throw SimulationError(
+          "There is not enough memory for the direct solver MUMPS. Take fewer cells ('Mesh/Largest number of "
+          "cells'), or more processes on more machines.");
+    default:
+      if (infog(1) < 0)
+        throw SimulationError("The direct solver MUMPS failed in its " + stage + " (INFOG(1) = " +
+                              std::to_string(infog(1)) + ", INFOG(2) = " + std::to_string(infog(2)) + ").");
+    }
   }
 };
 
