@@ -21,7 +21,8 @@ namespace
 template <int dim>
 LevelSet<dim>::LevelSet(const parallel::distributed::Triangulation<dim> &triangulation)
     : triangulation(triangulation), fe(3), dof_handler(triangulation),
-      node_to_dof(lexicographic_cell_dofs(static_cast<const FiniteElement<dim> &>(fe)))
+      node_to_dof(lexicographic_cell_dofs(static_cast<const FiniteElement<dim> &>(fe))),
+      filter(dof_handler, node_to_dof)
 {
 }
 
@@ -116,6 +117,8 @@ void LevelSet<dim>::advance(const MembraneMotion<dim> &motion, const BandLevelSe
                   return *value;
               return trajectory.foot.distance;
             });
+  filter.sweep(phi, constraints);
+  finish();
 }
 
 template <int dim>

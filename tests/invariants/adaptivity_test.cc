@@ -198,6 +198,46 @@ TEST(Adaptivity, TwoHundredRemeshingsChangeNoIntegralAndHardlyTheEnergy)
   EXPECT_LT(difference, 0.02 * change);
 }
 
+TEST(Adaptivity, AChangeOfTheMeshDoesNotChangeTheEnergy)
+{
+  // From each state of a moving vesicle a step of no size to speak of, on another mesh: with phases of
+  // different rigidity and spontaneous curvature, for the energy of bending has second derivatives.
+  AllParameters parameters = small_case();
+  parameters.mesh.membrane_level = 5;
+  parameters.mesh.phase_boundary_level = 6;
+  parameters.mesh.membrane_layers = 1;
+  parameters.mesh.remeshing_interval = 1;
+  set_two_phases(parameters, "x-0.05");
+  parameters.membrane.level_set = "x^2+2*y^2-0.2";
+  parameters.bending.rigidity_0 = 1e-2;
+  parameters.bending.rigidity_1 = 2e-2;
+  parameters.bending.spontaneous_curvature_1 = 1.;
+  parameters.domain.boundary_velocity = "3*cos(10*t); 0";
+  CoupledSystem<2> system(parameters, MPI_COMM_WORLD);
+  system.initialise();
+  double largest = 0., largest_drop = 0., energy = statistics_of(system).energy_total;
+  unsigned int n_changes = 0;
+  for (unsigned int i = 0; i < 40; ++i)
+  {
+    const unsigned int changes_before = system.mesh_changes();
+    system.try_step(1e-9);
+    if (system.mesh_changes() > changes_before)
+    {
+      ++n_changes;
+      largest = std::max(largest, std::abs(statistics_of(system).energy_total - energy));
+    }
+    system.try_step(0.01);
+    system.accept();
+    const double next = statistics_of(system).energy_total;
+    largest_drop = std::max(largest_drop, energy - next);
+    energy = next;
+  }
+  std::cout << n_changes << " changes of the mesh change the energy of " << energy << " by at most "
+            << largest << "; a step by at most " << largest_drop << std::endl;
+  EXPECT_GE(n_changes, 10u);
+  EXPECT_LT(largest, 1e-5);
+}
+
 TEST(ParallelAdaptivity, ErrorOfTheFlowRefinesTheBulk)
 {
   // A stream in and out of the upper wall, away from the membrane.

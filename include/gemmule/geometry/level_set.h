@@ -2,6 +2,7 @@
 
 #include <gemmule/geometry/band_level_set.h>
 #include <gemmule/geometry/cut_geometry.h>
+#include <gemmule/geometry/level_set_filter.h>
 #include <gemmule/geometry/membrane_motion.h>
 
 #include <deal.II/base/function.h>
@@ -21,7 +22,8 @@ namespace Gemmule
  * Semi-Lagrangian: every step sets phi anew in the band, at each node to the old level set at the node's old
  * position, with the displacement extended constantly along normals so that phi stays close to a distance.
  * The old level set comes as the polynomials on the old cells, so that refinement, coarsening and
- * repartitioning between two steps cost no transfer error. Where |grad phi| has drifted the step takes signed
+ * repartitioning between two steps cost no transfer error. What it has between the nodes is smoothed
+ * (LevelSetFilter). Where |grad phi| has drifted the step takes signed
  * distances from the old membrane instead (doc/method.md).
  */
 template <int dim>
@@ -85,6 +87,7 @@ private:
   dealii::DoFHandler<dim> dof_handler;
   dealii::AffineConstraints<double> constraints;
   std::vector<unsigned int> node_to_dof; ///< lexicographic node -> cell dof
+  const LevelSetFilter<dim> filter;
   Vector phi;
   bool far_nodes_are_set = false;
   std::vector<bool> is_in_band; ///< by active_cell_index
