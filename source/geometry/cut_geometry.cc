@@ -1,5 +1,6 @@
 #include <gemmule/geometry/cell_level_set.h>
 #include <gemmule/geometry/cut_geometry.h>
+#include <gemmule/parameters/errors.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/quadrature_lib.h>
@@ -58,6 +59,45 @@ namespace
   private:
     FullMatrix<double> to_bernstein;
   };
+
+  /** Assertions of deal.II throw instead of ending the program, as long as this object lives. */
+  class ThrowingAssertions
+  {
+  public:
+    ThrowingAssertions() { deal_II_exceptions::disable_abort_on_exception(); }
+    ~ThrowingAssertions()
+    {
+      if (aborted_before)
+        deal_II_exceptions::enable_abort_on_exception();
+    }
+    ThrowingAssertions(const ThrowingAssertions &) = delete;
+    ThrowingAssertions &operator=(const ThrowingAssertions &) = delete;
+
+  private:
+    const bool aborted_before = deal_II_exceptions::internals::allow_abort_on_exception;
+  };
+
+  /**
+   * Where a membrane is torn, the generator may find more roots on a line than it expects. Its debug version
+   * asserts that, the other one goes on with a rule that is worse. A trial step of a user is no case for an
+   * abort.
+   * @return false if an assertion failed
+   */
+  template <int dim>
+  bool generate(NonMatching::QuadratureGenerator<dim> &generator, const CellLevelSet<dim> &level_set,
+                const BoundingBox<dim> &unit_box)
+  {
+    const ThrowingAssertions throwing_assertions;
+    try
+    {
+      generator.generate(level_set, unit_box);
+      return true;
+    }
+    catch (const ExceptionBase &)
+    {
+      return false;
+    }
+  }
 } // namespace
 
 template <int dim>
@@ -89,6 +129,7 @@ void CutGeometry<dim>::reinit(const DoFHandler<dim> &dof_handler, const Vector &
   CellLevelSet<dim> cell_level_set;
   std::vector<types::global_dof_index> dofs(dof_handler.get_fe().n_dofs_per_cell());
   double local_measure = 0., local_volume = 0.;
+  bool is_resolved = true;
   for (const auto &cell : dof_handler.active_cell_iterators())
   {
     if (cell->is_artificial())
@@ -114,7 +155,11 @@ void CutGeometry<dim>::reinit(const DoFHandler<dim> &dof_handler, const Vector &
       const auto nodal = cell_level_set.nodal;
       for (auto &value : cell_level_set.nodal)
         value /= h;
-      generator.generate(cell_level_set, unit_box);
+      if (!generate(generator, cell_level_set, unit_box))
+      {
+        is_resolved = false; // the other ranks have to know before anything is thrown
+        continue;
+      }
       const auto &inside = generator.get_inside_quadrature();
       const auto &outside = generator.get_outside_quadrature();
       const auto &surface = generator.get_surface_quadrature();
@@ -158,6 +203,8 @@ void CutGeometry<dim>::reinit(const DoFHandler<dim> &dof_handler, const Vector &
       local_volume += std::pow(h, dim);
   }
   const MPI_Comm communicator = dof_handler.get_communicator();
+  if (Utilities::MPI::min(static_cast<int>(is_resolved), communicator) == 0)
+    throw SimulationError("The membrane is torn: its shape within a cell cannot be resolved.");
   total_measure = Utilities::MPI::sum(local_measure, communicator);
   total_enclosed_volume = Utilities::MPI::sum(local_volume, communicator);
 }

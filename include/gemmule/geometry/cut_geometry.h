@@ -65,7 +65,11 @@ public:
 
   explicit CutGeometry(unsigned int n_gauss_points = 4);
 
-  /** @p level_set must be ghosted and satisfy the hanging-node constraints. */
+  /**
+   * Cuts the cells. @p level_set must be ghosted and satisfy the hanging-node constraints.
+   * @throws SimulationError on all ranks when an assertion of the generator of rules fails (debug version of
+   * deal.II). Collective.
+   */
   void reinit(const dealii::DoFHandler<dim> &dof_handler, const Vector &level_set);
 
   /** By active_cell_index; meaningless for artificial cells. */
