@@ -59,23 +59,6 @@ namespace
         raised[i] += table[i][j] * u[j];
     return raised;
   }
-
-  /** The owned quadrature points of a membrane without concentrations. */
-  template <int dim>
-  MembraneCloud<dim> bare_cloud(const CutGeometry<dim> &geometry)
-  {
-    MembraneCloud<dim> cloud;
-    for (const auto &cell : geometry.cut_cells())
-      for (unsigned int q = 0; q < cell.surface_points.size(); ++q)
-      {
-        cloud.points.push_back(cell.physical(cell.surface_points[q]));
-        cloud.normals.push_back(cell.normals[q]);
-        cloud.weights.push_back(cell.surface_weights[q]);
-      }
-    cloud.concentration.assign(cloud.points.size(), 0.);
-    cloud.total_concentration.assign(cloud.points.size(), 0.);
-    return cloud;
-  }
 } // namespace
 
 template <int dim>
@@ -138,12 +121,20 @@ void CoupledSystem<dim>::initialise()
       break;
   }
 
+  InitialChecks<dim>(parameters).flow(get_flow().max_velocity());
+  start_history(0.);
+}
+
+template <int dim>
+void CoupledSystem<dim>::start_history(const double time)
+{
   std::vector<TransportedFields<dim>> at_rest(geometry.cut_cells().size());
   for (unsigned int c = 0; c < at_rest.size(); ++c)
     for (unsigned int i = 0; i < MembraneFields<dim>::n; ++i)
       at_rest[c].previous_velocity[i] = raise_degree<dim>(get_flow().membrane_velocity()[c].nodal)[i];
-  InitialChecks<dim>(parameters).flow(get_flow().max_velocity());
-  current = take_snapshot(0., at_rest);
+  current = take_snapshot(time, at_rest);
+  previous = MembraneSnapshot<dim>();
+  dt_previous = dt_preceding = 0.;
   resist_negative_tension();
   current_capillary_step = membrane_flow.capillary_time_step(geometry);
 }
@@ -257,7 +248,7 @@ void CoupledSystem<dim>::cut_mesh(const bool keep_area)
   check_refined_band();
   last_area_correction = 0.;
   // Newton's method: a shift by s changes the area by -s L.
-  for (unsigned int i = 0; keep_area && i < 3; ++i)
+  for (unsigned int i = 0; keep_area && i < 8; ++i)
   {
     const double excess = geometry.enclosed_volume() - area_0;
     if (geometry.measure() == 0.)
@@ -297,10 +288,19 @@ void CoupledSystem<dim>::move_level_set(const MembraneMotion<dim> &motion)
 {
   {
     TimerOutput::Scope scope(timer_output, "geometry: level set");
-    level_set.advance(motion, BandLevelSet<dim>(current.band, origin),
+    level_set.advance(motion, BandLevelSet<dim>(current.band, origin, &current.cloud),
                       motion.old_membrane().distance_drift() > largest_distance_drift);
   }
-  cut_mesh(true);
+  try
+  {
+    cut_mesh(true);
+  }
+  catch (const SimulationError &)
+  {
+    // Should a sign far from the membrane be wrong, it must not stay for the next try.
+    level_set.forget_far_nodes();
+    throw;
+  }
 }
 
 template <int dim>
@@ -345,10 +345,7 @@ CoupledSystem<dim>::take_snapshot(const double time,
   snapshot.origin = origin;
   snapshot.patches = gather_patches(cut_cells, fields, communicator);
   snapshot.band = level_set.gather_band();
-  if (surface)
-    snapshot.cloud = gather_cloud(surface->cloud(), communicator);
-  else if (has_arclength_multiplier())
-    snapshot.cloud = gather_cloud(bare_cloud(geometry), communicator);
+  snapshot.cloud = gather_cloud(surface ? surface->cloud() : bare_cloud(geometry), communicator);
   return snapshot;
 }
 

@@ -37,14 +37,6 @@ namespace
     }
     return negative && positive;
   }
-
-  /** The membrane without fields on it. */
-  template <int dim>
-  std::vector<MembranePatch<dim>> bare_patches(const CutGeometry<dim> &geometry, const MPI_Comm communicator)
-  {
-    return gather_patches(geometry.cut_cells(), std::vector<MembraneFields<dim>>(geometry.cut_cells().size()),
-                          communicator);
-  }
 } // namespace
 
 template <int dim>
@@ -146,7 +138,7 @@ template <int dim>
 std::vector<MembraneSample<dim>> InitialMembrane<dim>::samples(const Point<dim> &origin,
                                                                const CutGeometry<dim> &geometry) const
 {
-  const auto patches = bare_patches(geometry, communicator);
+  const auto patches = gather_bare_patches(geometry, communicator);
   const MembraneProjection<dim> membrane = InitialChecks<dim>(parameters).project(patches, origin);
   std::vector<MembraneSample<dim>> result;
   for (const auto &s : membrane.samples())
@@ -198,7 +190,7 @@ void InitialMembrane<dim>::make_level_set(const Point<dim> &origin, LevelSet<dim
 {
   level_set.interpolate(*shape);
   geometry.reinit(level_set.get_dof_handler(), level_set.values());
-  const auto patches = bare_patches(geometry, communicator);
+  const auto patches = gather_bare_patches(geometry, communicator);
   const InitialChecks<dim> checks(parameters);
   const MembraneProjection<dim> membrane = checks.project(patches, origin);
   checks.membrane(*shape, membrane);

@@ -51,6 +51,7 @@ void exchange(ArrayExchange &archive, RunState<dim> &state)
   archive.scope("membrane", [&] { exchange_samples(archive, state.membrane); });
   archive("membrane_is_written", state.membrane_is_written);
   archive("n_rejected", state.n_rejected);
+  archive("last_repair", state.last_repair);
   archive("wall_time", state.wall_time);
   archive("n_interface_groups", state.n_interface_groups);
   archive("n_field_files", state.n_field_files);

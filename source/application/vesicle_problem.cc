@@ -30,6 +30,11 @@ namespace
 
   constexpr int exit_code_stopped = 3;
 
+  // When a membrane that the mesh does not resolve is repaired: after so many attempts at one step, or when
+  // steps are below so many times the smallest.
+  constexpr unsigned int attempts_before_repair = 4;
+  constexpr double small_steps = 100.;
+
   std::string rounded(const double x)
   {
     return Parameters::short_number(x, 4);
@@ -98,6 +103,7 @@ void VesicleProblem<dim>::continue_from(RunState<dim> &state, const std::vector<
   *membrane = std::move(state.membrane);
   membrane_is_written = state.membrane_is_written;
   n_rejected = state.n_rejected;
+  last_repair = state.last_repair;
   earlier_wall_time = state.wall_time;
 
   for (const std::string &note : notes)
@@ -230,10 +236,45 @@ std::string VesicleProblem<dim>::end_of_the_model() const
 }
 
 template <int dim>
+bool VesicleProblem<dim>::repair_membrane(const unsigned int n_attempts, const double dt)
+{
+  const auto &options = parameters.time_stepping;
+  if (!parameters.membrane.repair_unresolved_shapes ||
+      (n_attempts < attempts_before_repair && dt > small_steps * options.smallest_step))
+    return false;
+  // What has not helped for an initial step of time will not help.
+  if (control->time() < last_repair + options.initial_step || system->membrane_is_resolved())
+    return false;
+  const std::string at = "at t = " + rounded(control->time());
+  try
+  {
+    const RepairReport report = system->repair_membrane();
+    log->info("the membrane " + at +
+              " has been repaired, and the run begins anew from there: what was thinner than " +
+              rounded(2. * report.radius) + " is gone; arclength " +
+              Parameters::short_number(report.arclength_before, 8) + " before and " +
+              Parameters::short_number(report.arclength_after, 8) + " after.");
+  }
+  catch (const SimulationError &error)
+  {
+    log->info("the membrane " + at + " cannot be repaired: " + error.what());
+    return false;
+  }
+  log->warn_once("repair", "steps fail, and the mesh does not resolve the membrane since t = " +
+                               rounded(control->time()) +
+                               ": it is repaired ('Membrane/Repair unresolved shapes'), by topological "
+                               "changes where two sheets share a cell. What follows depends on the mesh; "
+                               "bending rigidity or a finer mesh may avoid it.");
+  last_repair = control->time();
+  control->restart();
+  return true;
+}
+
+template <int dim>
 void VesicleProblem<dim>::make_step()
 {
   const auto &options = parameters.time_stepping;
-  while (true)
+  for (unsigned int n_attempts = 1;; ++n_attempts)
   {
     const double dt = control->propose(options.interface_courant_number * system->capillary_time_step());
     try
@@ -245,6 +286,11 @@ void VesicleProblem<dim>::make_step()
     catch (const SimulationError &error)
     {
       ++n_rejected;
+      if (repair_membrane(n_attempts, dt))
+      {
+        n_attempts = 0;
+        continue;
+      }
       control->fail(error.what());
       log->info("step " + std::to_string(row.step + 1) + " at t = " + rounded(control->time()) +
                 ", dt = " + rounded(dt) + " failed and is repeated with half the size: " + error.what());
@@ -268,6 +314,8 @@ void VesicleProblem<dim>::make_step()
               ", dt = " + rounded(dt) + " rejected: error of the shape " + rounded(error_shape) +
               ", of the composition " + rounded(error_composition) + ", tolerance " +
               rounded(options.tolerance));
+    if (repair_membrane(n_attempts, dt))
+      n_attempts = 0;
   }
 }
 
@@ -370,6 +418,7 @@ std::string VesicleProblem<dim>::write_checkpoint()
   state.membrane = *membrane;
   state.membrane_is_written = membrane_is_written;
   state.n_rejected = n_rejected;
+  state.last_repair = last_repair;
   state.wall_time = earlier_wall_time + wall_clock.wall_time();
   state.n_interface_groups = interface_writer->n_groups();
   state.n_field_files = field_writer->n_files();

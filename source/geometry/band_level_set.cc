@@ -1,5 +1,7 @@
 #include <gemmule/geometry/band_level_set.h>
 
+#include <deal.II/base/numbers.h>
+
 #include <cmath>
 
 namespace Gemmule
@@ -39,8 +41,9 @@ int CartesianCellMap<dim>::find(const Point<dim> &x) const
 }
 
 template <int dim>
-BandLevelSet<dim>::BandLevelSet(const std::vector<LevelSetCell<dim>> &cells_, const Point<dim> &origin)
-    : cells(cells_), map(origin)
+BandLevelSet<dim>::BandLevelSet(const std::vector<LevelSetCell<dim>> &cells_, const Point<dim> &origin,
+                                const MembraneCloud<dim> *const cloud)
+    : cells(cells_), cloud(cloud), map(origin)
 {
   for (unsigned int c = 0; c < cells.size(); ++c)
     map.insert(cells[c].corner, cells[c].size, c);
@@ -54,6 +57,24 @@ std::optional<double> BandLevelSet<dim>::value(const Point<dim> &x) const
     return {};
   return evaluate_polynomial<dim, 3>(cells[c].level_set, Point<dim>((x - cells[c].corner) / cells[c].size))
       .value;
+}
+
+template <int dim>
+double BandLevelSet<dim>::with_side(const double distance, const Point<dim> &x) const
+{
+  if (const auto phi = value(x))
+    return std::copysign(distance, *phi);
+  if (cloud == nullptr)
+    return distance;
+  double winding = 0.;
+  for (std::size_t i = 0; i < cloud->points.size(); ++i)
+  {
+    const Tensor<1, dim> difference = cloud->points[i] - x;
+    const double norm = difference.norm();
+    winding +=
+        cloud->weights[i] * (difference * cloud->normals[i]) / (dim == 2 ? norm * norm : norm * norm * norm);
+  }
+  return std::copysign(distance, (dim - 1) * numbers::PI - winding);
 }
 
 template class CartesianCellMap<2>;

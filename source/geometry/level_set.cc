@@ -63,7 +63,9 @@ void LevelSet<dim>::interpolate(const Function<dim> &function)
 
 template <int dim>
 void LevelSet<dim>::set_nodes(const MembraneProjection<dim> &membrane,
-                              const std::function<double(const Point<dim> &)> &accurate)
+                              const std::function<double(const Point<dim> &)> &accurate,
+                              const std::function<double(const Point<dim> &)> &approximate,
+                              const double least_width)
 {
   const IndexSet &owned = dof_handler.locally_owned_dofs();
   // Node by node: 2 exact, 1 approximate, 0 not yet. A node takes the better of what its cells ask for.
@@ -76,7 +78,8 @@ void LevelSet<dim>::set_nodes(const MembraneProjection<dim> &membrane,
     if (!cell->is_locally_owned() && !cell->is_ghost())
       continue;
     const double h = cell->extent_in_direction(0);
-    const bool in_band = cell->center().distance(membrane.nearest(cell->center()).point) < band_in_cells * h;
+    const bool in_band = cell->center().distance(membrane.nearest(cell->center()).point) <
+                         std::max(band_in_cells * h, least_width);
     is_in_band[cell->active_cell_index()] = in_band;
     if (!in_band && far_nodes_are_set)
       continue;
@@ -90,7 +93,7 @@ void LevelSet<dim>::set_nodes(const MembraneProjection<dim> &membrane,
       if (done == 2 || (done == 1 && !in_band))
         continue;
       const Point<dim> x = cell->vertex(0) + h * Tensor<1, dim>(TensorLagrange<dim, 3>::node(i));
-      phi(dof) = in_band ? accurate(x) : membrane.approximate_distance(x);
+      phi(dof) = in_band ? accurate(x) : approximate(x);
       done = in_band ? 2 : 1;
     }
   }
@@ -101,23 +104,39 @@ void LevelSet<dim>::set_nodes(const MembraneProjection<dim> &membrane,
 template <int dim>
 void LevelSet<dim>::set_distance(const MembraneProjection<dim> &membrane)
 {
-  set_nodes(membrane, [&](const Point<dim> &x) { return membrane.project(x).distance; });
+  set_nodes(
+      membrane, [&](const Point<dim> &x) { return membrane.project(x).distance; },
+      [&](const Point<dim> &x) { return membrane.approximate_distance(x); });
+}
+
+template <int dim>
+void LevelSet<dim>::set_distance(const MembraneProjection<dim> &membrane, const BandLevelSet<dim> &sides,
+                                 const double width)
+{
+  forget_far_nodes();
+  set_nodes(
+      membrane, [&](const Point<dim> &x) { return sides.with_side(membrane.project(x).distance, x); },
+      [&](const Point<dim> &x) { return sides.with_side(membrane.approximate_distance(x), x); }, width);
 }
 
 template <int dim>
 void LevelSet<dim>::advance(const MembraneMotion<dim> &motion, const BandLevelSet<dim> &old_level_set,
                             const bool redistance)
 {
-  set_nodes(motion.old_membrane(),
-            [&](const Point<dim> &x)
-            {
-              const auto trajectory = motion.trace_back(x);
-              if (!redistance)
-                if (const auto value = old_level_set.value(x - trajectory.displacement))
-                  return *value;
-              return trajectory.foot.distance;
-            });
-  filter.sweep(phi, constraints);
+  set_nodes(
+      motion.old_membrane(),
+      [&](const Point<dim> &x)
+      {
+        const auto trajectory = motion.trace_back(x);
+        const Point<dim> old_x = x - trajectory.displacement;
+        if (!redistance)
+          if (const auto value = old_level_set.value(old_x))
+            return *value;
+        return old_level_set.with_side(trajectory.foot.distance, old_x);
+      },
+      [&](const Point<dim> &x)
+      { return old_level_set.with_side(motion.old_membrane().approximate_distance(x), x); });
+  filter.sweep(phi, is_in_band);
   finish();
 }
 

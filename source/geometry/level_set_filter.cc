@@ -1,5 +1,6 @@
 #include <gemmule/geometry/level_set_filter.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -129,27 +130,40 @@ typename LevelSetFilter<dim>::CellValues LevelSetFilter<dim>::read(const CellIte
   CellValues result;
   std::vector<types::global_dof_index> dofs(Basis::n);
   cell->get_dof_indices(dofs);
-  bool negative = false, positive = false;
   for (unsigned int i = 0; i < Basis::n; ++i)
   {
     result.dofs[i] = dofs[node_to_dof[i]];
     result.phi[i] = phi(result.dofs[i]);
-    (result.phi[i] < 0. ? negative : positive) = true;
   }
-  result.is_cut = negative && positive;
   return result;
 }
 
 template <int dim>
-void LevelSetFilter<dim>::sweep(Vector &phi, const AffineConstraints<double> &constraints) const
+std::vector<bool> LevelSetFilter<dim>::find_cut_cells(const Vector &phi,
+                                                      const std::vector<bool> &candidates) const
 {
+  std::vector<bool> is_cut(candidates.size(), false);
+  for (const auto &cell : dof_handler.active_cell_iterators())
+    if (!cell->is_artificial() && candidates[cell->active_cell_index()])
+    {
+      const auto values = read(cell, phi).phi;
+      const auto is_negative = [](const double value) { return value < 0.; };
+      is_cut[cell->active_cell_index()] = std::any_of(values.begin(), values.end(), is_negative) &&
+                                          !std::all_of(values.begin(), values.end(), is_negative);
+    }
+  return is_cut;
+}
+
+template <int dim>
+void LevelSetFilter<dim>::sweep(Vector &phi, const std::vector<bool> &candidates) const
+{
+  const std::vector<bool> is_cut = find_cut_cells(phi, candidates);
   Vector change;
   change.reinit(phi);
   for (const auto &cell : dof_handler.active_cell_iterators())
   {
     if (!cell->is_locally_owned())
       continue;
-    const CellValues here = read(cell, phi);
     for (unsigned int face = 0; face < GeometryInfo<dim>::faces_per_cell; ++face)
     {
       if (cell->at_boundary(face) || cell->neighbor(face)->has_children())
@@ -157,9 +171,9 @@ void LevelSetFilter<dim>::sweep(Vector &phi, const AffineConstraints<double> &co
       const CellIterator neighbor = cell->neighbor(face);
       if (neighbor->level() == cell->level() && neighbor->id() < cell->id())
         continue; // done by the other one
-      const CellValues there = read(neighbor, phi);
-      if (!here.is_cut && !there.is_cut)
+      if (!is_cut[cell->active_cell_index()] && !is_cut[neighbor->active_cell_index()])
         continue;
+      const CellValues here = read(cell, phi), there = read(neighbor, phi);
       const double size = cell->extent_in_direction(0);
       for (const Jump &jump : jumps[position_index(cell, face, neighbor)])
       {
@@ -175,9 +189,6 @@ void LevelSetFilter<dim>::sweep(Vector &phi, const AffineConstraints<double> &co
   change.compress(VectorOperation::add);
   phi.zero_out_ghost_values();
   phi += change;
-  phi.update_ghost_values();
-  constraints.distribute(phi);
-  phi.update_ghost_values();
 }
 
 template class LevelSetFilter<2>;

@@ -85,6 +85,30 @@ std::vector<MembranePatch<dim>> gather_patches(const std::vector<CutCell<dim>> &
 }
 
 template <int dim>
+std::vector<MembranePatch<dim>> gather_bare_patches(const CutGeometry<dim> &geometry,
+                                                    const MPI_Comm communicator)
+{
+  return gather_patches(geometry.cut_cells(), std::vector<MembraneFields<dim>>(geometry.cut_cells().size()),
+                        communicator);
+}
+
+template <int dim>
+MembraneCloud<dim> bare_cloud(const CutGeometry<dim> &geometry)
+{
+  MembraneCloud<dim> cloud;
+  for (const auto &cell : geometry.cut_cells())
+    for (unsigned int q = 0; q < cell.surface_points.size(); ++q)
+    {
+      cloud.points.push_back(cell.physical(cell.surface_points[q]));
+      cloud.normals.push_back(cell.normals[q]);
+      cloud.weights.push_back(cell.surface_weights[q]);
+    }
+  cloud.concentration.assign(cloud.points.size(), 0.);
+  cloud.total_concentration.assign(cloud.points.size(), 0.);
+  return cloud;
+}
+
+template <int dim>
 MembraneCloud<dim> gather_cloud(const MembraneCloud<dim> &local, const MPI_Comm communicator)
 {
   std::vector<CloudPoint<dim>> packed(local.points.size());
@@ -131,6 +155,8 @@ MembraneCloud<dim> gather_cloud(const MembraneCloud<dim> &local, const MPI_Comm 
       const std::vector<CutCell<dim>> &);                                                                    \
   template std::vector<MembranePatch<dim>> gather_patches(                                                   \
       const std::vector<CutCell<dim>> &, const std::vector<MembraneFields<dim>> &, MPI_Comm);                \
+  template std::vector<MembranePatch<dim>> gather_bare_patches(const CutGeometry<dim> &, MPI_Comm);          \
+  template MembraneCloud<dim> bare_cloud(const CutGeometry<dim> &);                                          \
   template MembraneCloud<dim> gather_cloud(const MembraneCloud<dim> &, MPI_Comm);
 GEMMULE_INSTANTIATE(2)
 GEMMULE_INSTANTIATE(3)

@@ -63,6 +63,12 @@ void Membrane::add_parameters(dealii::ParameterHandler &prm)
       "The x in gamma = exp(-x c) (dimensionless); 0 makes both phases alike. Source: Li, Lowengrub, Voigt "
       "(2012).",
       Range::any());
+  section.add(
+      "Repair unresolved shapes", repair_unresolved_shapes,
+      "What to do when steps fail and the mesh does not resolve the membrane, which has folds or spikes "
+      "within "
+      "a cell or two sheets in one: true: what is thinner than 1.5 cells is removed, two sheets so near each "
+      "other merge, and the run goes on, with the same enclosed area and masses; false: the run ends.");
 }
 
 void Membrane::check() const
@@ -146,7 +152,7 @@ void Bending::add_parameters(dealii::ParameterHandler &prm)
       "its "
       "own is smaller; h is the edge of the cells of 'Mesh/Membrane level' and sigma the smallest tension. "
       "The wrinkles that grow fastest are then 2 pi sqrt(3 C) cells long, instead of as short as possible "
-      "(dimensionless); 0: none, and the run may end where they break the membrane up.",
+      "(dimensionless); 0: none, and waves of single cells break the membrane up.",
       Range::non_negative());
 }
 

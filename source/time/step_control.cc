@@ -126,6 +126,14 @@ bool StepControl::judge(const double estimate, const bool on_new_mesh)
   return true;
 }
 
+void StepControl::restart()
+{
+  n_started = 0;
+  rejected_step = rejected_error = floor = 0.;
+  floor_passes = false;
+  wanted = start_step();
+}
+
 void StepControl::fail(const std::string &reason)
 {
   shrink(0.5, reason);

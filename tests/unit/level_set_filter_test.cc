@@ -27,8 +27,14 @@ namespace
   {
     const auto nodes = node_to_dof(mesh);
     const LevelSetFilter<dim> filter(mesh.dof_handler, nodes);
+    const std::vector<bool> all(mesh.dof_handler.get_triangulation().n_active_cells(), true);
     for (unsigned int i = 0; i < n; ++i)
-      filter.sweep(mesh.level_set, mesh.constraints);
+    {
+      filter.sweep(mesh.level_set, all);
+      mesh.level_set.update_ghost_values();
+      mesh.constraints.distribute(mesh.level_set);
+      mesh.level_set.update_ghost_values();
+    }
   }
 
   /** Largest |phi - expected| at the nodes of the cells that the zero set cuts, two cells or more from the

@@ -20,6 +20,13 @@
 
 namespace Gemmule
 {
+/** What CoupledSystem::repair_membrane() has done. */
+struct RepairReport
+{
+  double radius = 0.; ///< what is thinner than its double is gone
+  double arclength_before = 0., arclength_after = 0.;
+};
+
 /**
  * Membrane, surface phases and flow on the adaptive mesh, and one time step of them (design section 2,
  * "Coupling and time"): the membrane moves with the extrapolated velocity, then the concentrations follow on
@@ -58,6 +65,17 @@ public:
 
   /** Makes the state of the last try the current one. */
   void accept();
+
+  /** Does the mesh resolve the current membrane (geometry/membrane_repair.h)? */
+  bool membrane_is_resolved() const;
+
+  /**
+   * Removes from the current membrane what is smaller than the cells, topological changes included, and
+   * starts anew from there with a step of first order. Enclosed area and masses stay; the reference
+   * arclength changes with the arclength.
+   * @throws SimulationError when that is impossible: the state is then as it was. Collective.
+   */
+  RepairReport repair_membrane();
 
   /** Time of the current (accepted) state. */
   double time() const { return current.time; }
@@ -115,6 +133,8 @@ private:
   void resist_negative_tension();
   /** Level set and cut mesh of the current membrane after @p motion, with the area of the beginning. */
   void move_level_set(const MembraneMotion<dim> &motion);
+  /** Takes membrane, phases and flow as they are now for the current state, with no past. */
+  void start_history(double time);
   bool has_arclength_multiplier() const;
   /** The arclength that a multiplier gives the membrane in the next step. */
   double next_arclength() const;

@@ -18,6 +18,7 @@ struct RunState
   InterfaceSamples<dim> membrane;   ///< of the same
   bool membrane_is_written = false; ///< to interface.h5
   unsigned int n_rejected = 0;      ///< steps that were repeated
+  double last_repair = -1.;         ///< time at which the membrane was repaired last; negative: never
   double wall_time = 0.;            ///< seconds of all runs so far
 
   // How much has been written, to notice what is missing.

@@ -54,6 +54,11 @@ private:
   void announce() const;
   /** One accepted step, however many attempts that takes. */
   void make_step();
+  /**
+   * After an attempt of size @p dt at a step that was not accepted: repairs the membrane if it is the reason
+   * and that is allowed. @return whether the step can be tried again from a new beginning.
+   */
+  bool repair_membrane(unsigned int n_attempts, double dt);
   /** What to add to the reason of a failure if the total concentration has all but vanished; else nothing. */
   std::string end_of_the_model() const;
   void report();
@@ -87,6 +92,7 @@ private:
   StatisticsRow row, previous_row;
   double error_shape = 0., error_composition = 0.;
   unsigned int n_rejected = 0;
+  double last_repair = -1.; ///< time at which the membrane was repaired last; negative: never
 };
 
 /** Checks what needs more than the parameters themselves: the initial membrane. @throws UserError.

@@ -32,14 +32,30 @@ template <int dim>
 class BandLevelSet
 {
 public:
-  /** The cells must outlive the object. */
-  BandLevelSet(const std::vector<LevelSetCell<dim>> &cells, const dealii::Point<dim> &origin);
+  /**
+   * @param cells must outlive the object
+   * @param cloud points of the same membrane, which tell the sides beyond the band; must outlive the object
+   */
+  BandLevelSet(const std::vector<LevelSetCell<dim>> &cells, const dealii::Point<dim> &origin,
+               const MembraneCloud<dim> *cloud = nullptr);
 
   /** phi(x), or nothing outside the band. */
   std::optional<double> value(const dealii::Point<dim> &x) const;
 
+  /**
+   * A distance of x from the membrane with the sign of x's side: that of phi within the band, beyond it that
+   * of 1/2 - w with the winding number (solid angle in 3D)
+   *
+   *     w(x) = int (y - x) . n / |y - x|^dim ds(y) / |unit sphere|,
+   *
+   * 1 inside and 0 outside. Unlike the normal of the closest point, it does not care about corners, or folds
+   * within a cell. Without a cloud the sign that @p distance has stays.
+   */
+  double with_side(double distance, const dealii::Point<dim> &x) const;
+
 private:
   const std::vector<LevelSetCell<dim>> &cells;
+  const MembraneCloud<dim> *const cloud;
   CartesianCellMap<dim> map;
 };
 } // namespace Gemmule

@@ -22,9 +22,9 @@ namespace Gemmule
  * Semi-Lagrangian: every step sets phi anew in the band, at each node to the old level set at the node's old
  * position, with the displacement extended constantly along normals so that phi stays close to a distance.
  * The old level set comes as the polynomials on the old cells, so that refinement, coarsening and
- * repartitioning between two steps cost no transfer error. What it has between the nodes is smoothed
- * (LevelSetFilter). Where |grad phi| has drifted the step takes signed
- * distances from the old membrane instead (doc/method.md).
+ * repartitioning between two steps cost no transfer error. What it has between the nodes of Q2 is
+ * smoothed (LevelSetFilter). Where |grad phi| has drifted the step takes distances from the old membrane
+ * instead, with the signs of the old level set (doc/method.md).
  */
 template <int dim>
 class LevelSet
@@ -44,9 +44,17 @@ public:
   void set_distance(const MembraneProjection<dim> &membrane);
 
   /**
+   * The same with the sides that a level set of that membrane tells (BandLevelSet::with_side), which do not
+   * depend on the normals beside its corners.
+   * @param width least half width of the band, where it takes more than the usual number of cells
+   */
+  void set_distance(const MembraneProjection<dim> &membrane, const BandLevelSet<dim> &sides,
+                    double width = 0.);
+
+  /**
    * Moves the membrane.
    * @param old_level_set level set of the old time level
-   * @param redistance take signed distances from the old membrane instead of the old level set: O(h^4)
+   * @param redistance take distances from the old membrane instead of the values of the old level set: O(h^4)
    */
   void advance(const MembraneMotion<dim> &motion, const BandLevelSet<dim> &old_level_set, bool redistance);
 
@@ -55,6 +63,9 @@ public:
 
   /** All cells of the mesh, complete on every rank. Collective. */
   std::vector<LevelSetCell<dim>> gather_cells() const;
+
+  /** The nodes far from the membrane will be set anew, as on a new mesh. */
+  void forget_far_nodes() { far_nodes_are_set = false; }
 
   /** Have the nodes far from the membrane been set on this mesh? */
   bool is_set_everywhere() const { return far_nodes_are_set; }
@@ -75,10 +86,12 @@ public:
   const Vector &values() const { return phi; }
 
 private:
-  /** Sets the nodes within the band by @p accurate, the others (if never set on this mesh) by the nearest
-   * sample. */
+  /** Sets the nodes within the band by @p accurate, the others (if never set on this mesh) by
+   * @p approximate. */
   void set_nodes(const MembraneProjection<dim> &membrane,
-                 const std::function<double(const dealii::Point<dim> &)> &accurate);
+                 const std::function<double(const dealii::Point<dim> &)> &accurate,
+                 const std::function<double(const dealii::Point<dim> &)> &approximate,
+                 double least_width = 0.);
   void finish();
   LevelSetCell<dim> values_on(const typename dealii::DoFHandler<dim>::active_cell_iterator &cell) const;
 

@@ -3,9 +3,9 @@
 #include <gemmule/geometry/tensor_lagrange.h>
 
 #include <deal.II/dofs/dof_handler.h>
-#include <deal.II/lac/affine_constraints.h>
 #include <deal.II/lac/la_parallel_vector.h>
 
+#include <array>
 #include <vector>
 
 namespace Gemmule
@@ -43,10 +43,11 @@ public:
 
   /**
    * One sweep.
-   * @param phi with up-to-date ghost values, before and after
-   * @param constraints of the hanging nodes
+   * @param phi with up-to-date ghost values; afterwards they are zero, and the hanging nodes are not yet
+   * constrained
+   * @param candidates the cells that the membrane may cut, by active_cell_index
    */
-  void sweep(Vector &phi, const dealii::AffineConstraints<double> &constraints) const;
+  void sweep(Vector &phi, const std::vector<bool> &candidates) const;
 
 private:
   using Basis = TensorLagrange<dim, 3>;
@@ -77,7 +78,6 @@ private:
   {
     std::array<dealii::types::global_dof_index, Basis::n> dofs;
     std::array<double, Basis::n> phi;
-    bool is_cut;
   };
 
   static std::vector<Jump> make_jumps(const FacePosition &position);
@@ -85,6 +85,8 @@ private:
   static unsigned int position_index(const CellIterator &cell, unsigned int face,
                                      const CellIterator &neighbor);
   CellValues read(const CellIterator &cell, const Vector &phi) const;
+  /** By active_cell_index; known for owned and ghost cells. */
+  std::vector<bool> find_cut_cells(const Vector &phi, const std::vector<bool> &candidates) const;
 
   const dealii::DoFHandler<dim> &dof_handler;
   const std::vector<unsigned int> &node_to_dof;

@@ -46,6 +46,14 @@ std::vector<MembranePatch<dim>> gather_patches(const std::vector<CutCell<dim>> &
                                                const std::vector<MembraneFields<dim>> &fields,
                                                MPI_Comm communicator);
 
+/** The same without fields. Collective. */
+template <int dim>
+std::vector<MembranePatch<dim>> gather_bare_patches(const CutGeometry<dim> &geometry, MPI_Comm communicator);
+
+/** The quadrature points on the given cut cells, of a membrane without concentrations. */
+template <int dim>
+MembraneCloud<dim> bare_cloud(const CutGeometry<dim> &geometry);
+
 /** Collects the points of all ranks, ordered by position. Collective. */
 template <int dim>
 MembraneCloud<dim> gather_cloud(const MembraneCloud<dim> &local, MPI_Comm communicator);

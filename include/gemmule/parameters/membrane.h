@@ -40,6 +40,8 @@ struct Membrane
   std::string surface_energy = "exponential";
   /** x in gamma = exp(-x c). */
   double surface_energy_contrast = 0.2;
+  /** Remove what is smaller than the cells instead of giving up. */
+  bool repair_unresolved_shapes = true;
 
   void add_parameters(dealii::ParameterHandler &prm);
   /** @throws ParameterError for numbers out of range; expressions are checked by AllParameters */

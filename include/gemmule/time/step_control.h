@@ -67,6 +67,9 @@ public:
    */
   void fail(const std::string &reason);
 
+  /** The state at this time has no past any more: begins again as at the start. */
+  void restart();
+
   /** Part of the estimates, in units of the tolerance, that does not depend on the step size; 0 if not
    * noticed. */
   double noise_floor() const { return floor; }

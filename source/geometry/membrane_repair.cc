@@ -1,0 +1,151 @@
+#include <gemmule/geometry/membrane_repair.h>
+#include <gemmule/geometry/membrane_transport.h>
+#include <gemmule/parameters/errors.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace Gemmule
+{
+using namespace dealii;
+
+namespace
+{
+  // Two sheets in one cell: cosine of the angle between their normals.
+  constexpr double opposite = -0.5;
+  // What is farther from the other membrane than this part of a cell counts as changed.
+  constexpr double changed = 0.05;
+  constexpr double neighborhood_in_cells = 8.;
+  constexpr double largest_local_factor = 0.25;
+
+  template <int dim>
+  double largest_cell(const std::vector<MembranePatch<dim>> &patches)
+  {
+    double largest = 0.;
+    for (const auto &patch : patches)
+      largest = std::max(largest, patch.size);
+    return largest;
+  }
+} // namespace
+
+template <int dim>
+double largest_unresolved_cell(const MembraneProjection<dim> &membrane, const double largest_curvature)
+{
+  const auto &samples = membrane.samples();
+  double largest = 0.;
+  for (std::size_t first = 0, i = 0; i < samples.size(); ++i)
+  {
+    const double h = membrane.get_patches()[samples[i].patch].size;
+    // the samples of a patch follow each other
+    if (samples[i].patch != samples[first].patch)
+      first = i;
+    bool is_resolved = std::abs(membrane.curvature(samples[i])) * h <= largest_curvature;
+    for (std::size_t j = first; j < i; ++j)
+      is_resolved = is_resolved && samples[i].normal * samples[j].normal >= opposite;
+    if (!is_resolved)
+      largest = std::max(largest, h);
+  }
+  return largest;
+}
+
+template <int dim>
+double remove_small_features(const MembraneSnapshot<dim> &membrane, const double radius,
+                             LevelSet<dim> &level_set, CutGeometry<dim> &geometry,
+                             const MPI_Comm communicator)
+{
+  const double width = 4. * radius; // the membrane moves by twice the radius at most
+  level_set.set_distance(MembraneProjection<dim>(membrane.patches, membrane.origin),
+                         BandLevelSet<dim>(membrane.band, membrane.origin, &membrane.cloud), width);
+  geometry.reinit(level_set.get_dof_handler(), level_set.values());
+  const double measure = geometry.measure();
+  for (const double distance : {radius, -2. * radius, radius})
+  {
+    level_set.shift(-distance);
+    geometry.reinit(level_set.get_dof_handler(), level_set.values());
+    const auto patches = gather_bare_patches(geometry, communicator);
+    const auto cloud = gather_cloud(bare_cloud(geometry), communicator);
+    const auto band = level_set.gather_band();
+    level_set.set_distance(MembraneProjection<dim>(patches, membrane.origin),
+                           BandLevelSet<dim>(band, membrane.origin, &cloud), width);
+  }
+  geometry.reinit(level_set.get_dof_handler(), level_set.values());
+  return measure;
+}
+
+template <int dim>
+RepairedConcentration<dim>::RepairedConcentration(const MembraneProjection<dim> &old_membrane,
+                                                  const Field field, const double mass,
+                                                  const CutGeometry<dim> &geometry, const Point<dim> &origin,
+                                                  const MPI_Comm communicator)
+    : old_membrane(old_membrane), field(field), cell_size(largest_cell(old_membrane.get_patches()))
+{
+  find_changes(geometry, origin, communicator);
+  double carried_mass = 0., weighted_mass = 0.;
+  for (const auto &cell : geometry.cut_cells())
+    for (unsigned int q = 0; q < cell.surface_points.size(); ++q)
+    {
+      const Point<dim> x = cell.physical(cell.surface_points[q]);
+      const double part = cell.surface_weights[q] * carried(x);
+      carried_mass += part;
+      weighted_mass += part * weight(x);
+    }
+  carried_mass = Utilities::MPI::sum(carried_mass, communicator);
+  weighted_mass = Utilities::MPI::sum(weighted_mass, communicator);
+  const double missing = mass - carried_mass;
+  is_local = std::abs(missing) <= largest_local_factor * std::abs(weighted_mass);
+  const double reference = is_local ? weighted_mass : carried_mass;
+  if (std::abs(reference) < 1e-3 * std::abs(mass))
+    throw SimulationError("The concentrations on the repaired membrane have no mass.");
+  factor = mass == 0. ? 0. : missing / reference;
+}
+
+template <int dim>
+void RepairedConcentration<dim>::find_changes(const CutGeometry<dim> &geometry, const Point<dim> &origin,
+                                              const MPI_Comm communicator)
+{
+  const auto patches = gather_bare_patches(geometry, communicator);
+  const MembraneProjection<dim> new_membrane(patches, origin);
+  const auto compare = [&](const MembraneProjection<dim> &one, const MembraneProjection<dim> &other)
+  {
+    for (const auto &sample : one.samples())
+      if (std::abs(other.project(sample.point).distance) > changed * cell_size)
+        changes.push_back(sample.point);
+  };
+  compare(old_membrane, new_membrane);
+  compare(new_membrane, old_membrane);
+}
+
+template <int dim>
+double RepairedConcentration<dim>::carried(const Point<dim> &x) const
+{
+  return old_membrane.value(old_membrane.project(x), field);
+}
+
+template <int dim>
+double RepairedConcentration<dim>::weight(const Point<dim> &x) const
+{
+  double distance_square = std::numeric_limits<double>::max();
+  for (const auto &point : changes)
+    distance_square = std::min(distance_square, x.distance_square(point));
+  const double radius = neighborhood_in_cells * cell_size;
+  return std::exp(-distance_square / (radius * radius));
+}
+
+template <int dim>
+double RepairedConcentration<dim>::value(const Point<dim> &x, const unsigned int) const
+{
+  return carried(x) * (1. + factor * (is_local ? weight(x) : 1.));
+}
+
+#define GEMMULE_INSTANTIATE(dim)                                                                             \
+  template double largest_unresolved_cell(const MembraneProjection<dim> &, double);                          \
+  template double remove_small_features(const MembraneSnapshot<dim> &, double, LevelSet<dim> &,              \
+                                        CutGeometry<dim> &, MPI_Comm);                                       \
+  template class RepairedConcentration<dim>;
+GEMMULE_INSTANTIATE(2)
+GEMMULE_INSTANTIATE(3)
+#undef GEMMULE_INSTANTIATE
+} // namespace Gemmule
