@@ -32,6 +32,23 @@ bool CoupledSystem<dim>::membrane_is_resolved() const
 template <int dim>
 RepairReport CoupledSystem<dim>::repair_membrane()
 {
+  const double old_reference = arclength_0;
+  try
+  {
+    return begin_from_repaired_membrane();
+  }
+  catch (...)
+  {
+    arclength_0 = old_reference;
+    // They may belong to a shape that is to be forgotten.
+    level_set.forget_far_nodes();
+    throw;
+  }
+}
+
+template <int dim>
+RepairReport CoupledSystem<dim>::begin_from_repaired_membrane()
+{
   const MembraneProjection<dim> old_membrane(current.patches, origin);
   RepairReport report;
   {
@@ -74,17 +91,8 @@ RepairReport CoupledSystem<dim>::repair_membrane()
                         curvature);
   }
   // The length of sheets that have merged cannot come back: the constraint holds for what is left.
-  const double old_reference = arclength_0;
   arclength_0 *= report.arclength_after / report.arclength_before;
-  try
-  {
-    solve_flow(current.time, parameters.time_stepping.initial_step, nullptr);
-  }
-  catch (...)
-  {
-    arclength_0 = old_reference;
-    throw;
-  }
+  solve_flow(current.time, parameters.time_stepping.initial_step, nullptr);
   n_steps_on_mesh = 0;
   start_history(current.time);
   sample_flow();
@@ -95,4 +103,6 @@ template bool CoupledSystem<2>::membrane_is_resolved() const;
 template bool CoupledSystem<3>::membrane_is_resolved() const;
 template RepairReport CoupledSystem<2>::repair_membrane();
 template RepairReport CoupledSystem<3>::repair_membrane();
+template RepairReport CoupledSystem<2>::begin_from_repaired_membrane();
+template RepairReport CoupledSystem<3>::begin_from_repaired_membrane();
 } // namespace Gemmule

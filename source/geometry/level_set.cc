@@ -64,8 +64,7 @@ void LevelSet<dim>::interpolate(const Function<dim> &function)
 template <int dim>
 void LevelSet<dim>::set_nodes(const MembraneProjection<dim> &membrane,
                               const std::function<double(const Point<dim> &)> &accurate,
-                              const std::function<double(const Point<dim> &)> &approximate,
-                              const double least_width)
+                              const BandLevelSet<dim> *const sides, const double least_width)
 {
   const IndexSet &owned = dof_handler.locally_owned_dofs();
   // Node by node: 2 exact, 1 approximate, 0 not yet. A node takes the better of what its cells ask for.
@@ -83,6 +82,15 @@ void LevelSet<dim>::set_nodes(const MembraneProjection<dim> &membrane,
     is_in_band[cell->active_cell_index()] = in_band;
     if (!in_band && far_nodes_are_set)
       continue;
+    // Beyond the band all of a cell is on one side.
+    const double side = in_band || sides == nullptr
+                            ? 0.
+                            : sides->with_side(membrane.approximate_distance(cell->center()), cell->center());
+    const auto approximate = [&](const Point<dim> &x)
+    {
+      const double distance = membrane.approximate_distance(x);
+      return side == 0. ? distance : std::copysign(distance, side);
+    };
     cell->get_dof_indices(dofs);
     for (unsigned int i = 0; i < node_to_dof.size(); ++i)
     {
@@ -105,8 +113,7 @@ template <int dim>
 void LevelSet<dim>::set_distance(const MembraneProjection<dim> &membrane)
 {
   set_nodes(
-      membrane, [&](const Point<dim> &x) { return membrane.project(x).distance; },
-      [&](const Point<dim> &x) { return membrane.approximate_distance(x); });
+      membrane, [&](const Point<dim> &x) { return membrane.project(x).distance; }, nullptr);
 }
 
 template <int dim>
@@ -115,8 +122,8 @@ void LevelSet<dim>::set_distance(const MembraneProjection<dim> &membrane, const 
 {
   forget_far_nodes();
   set_nodes(
-      membrane, [&](const Point<dim> &x) { return sides.with_side(membrane.project(x).distance, x); },
-      [&](const Point<dim> &x) { return sides.with_side(membrane.approximate_distance(x), x); }, width);
+      membrane, [&](const Point<dim> &x) { return sides.with_side(membrane.project(x).distance, x); }, &sides,
+      width);
 }
 
 template <int dim>
@@ -134,8 +141,7 @@ void LevelSet<dim>::advance(const MembraneMotion<dim> &motion, const BandLevelSe
             return *value;
         return old_level_set.with_side(trajectory.foot.distance, old_x);
       },
-      [&](const Point<dim> &x)
-      { return old_level_set.with_side(motion.old_membrane().approximate_distance(x), x); });
+      &old_level_set);
   filter.sweep(phi, is_in_band);
   finish();
 }

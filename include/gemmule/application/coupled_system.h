@@ -133,6 +133,8 @@ private:
   void resist_negative_tension();
   /** Level set and cut mesh of the current membrane after @p motion, with the area of the beginning. */
   void move_level_set(const MembraneMotion<dim> &motion);
+  /** repair_membrane(), which in case of a failure leaves a state that it has half changed. */
+  RepairReport begin_from_repaired_membrane();
   /** Takes membrane, phases and flow as they are now for the current state, with no past. */
   void start_history(double time);
   bool has_arclength_multiplier() const;

@@ -86,12 +86,11 @@ public:
   const Vector &values() const { return phi; }
 
 private:
-  /** Sets the nodes within the band by @p accurate, the others (if never set on this mesh) by
-   * @p approximate. */
+  /** Sets the nodes within the band by @p accurate, the others (if never set on this mesh) by the nearest
+   * sample, on the side that @p sides tells (nullptr: the normals of the samples). */
   void set_nodes(const MembraneProjection<dim> &membrane,
                  const std::function<double(const dealii::Point<dim> &)> &accurate,
-                 const std::function<double(const dealii::Point<dim> &)> &approximate,
-                 double least_width = 0.);
+                 const BandLevelSet<dim> *sides, double least_width = 0.);
   void finish();
   LevelSetCell<dim> values_on(const typename dealii::DoFHandler<dim>::active_cell_iterator &cell) const;
 
