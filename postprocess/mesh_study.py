@@ -181,7 +181,14 @@ def figure(all_series, all_tables, time):
                 axis.set_title(LABELS[name])
             if place % columns == 0:
                 axis.set_ylabel(f"error at $t = {time:g}$")
-    axes[0, 0].legend()
+    # In the panel that the quantities leave empty, if there is one: several series would hide the first curves.
+    empty = [axis for axis in axes.flat if not axis.get_visible()]
+    if empty:
+        empty[-1].set_visible(True)
+        empty[-1].axis("off")
+        empty[-1].legend(*axes[0, 0].get_legend_handles_labels(), loc="center")
+    else:
+        axes[0, 0].legend()
     return result
 
 
