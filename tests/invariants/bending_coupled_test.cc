@@ -247,9 +247,17 @@ TEST(NegativeTension, WithoutRigidityDoesNotBreakTheMembraneUp)
     double &largest = largest_curvature[resists] = 0.;
     try
     {
-      const auto rows = run_case(parameters, 50, 0.02);
-      for (const auto &row : rows)
-        largest = std::max(largest, row.curvature_max);
+      CoupledSystem<2> system(parameters, MPI_COMM_WORLD);
+      system.initialise();
+      std::vector<StatisticsRow> rows{statistics_of(system)};
+      // A membrane that breaks up asks for ever finer cells: it is enough to see that it does.
+      for (unsigned int i = 0; i < 50 && (resists || largest <= 4.); ++i)
+      {
+        system.try_step(0.02);
+        system.accept();
+        rows.push_back(statistics_of(system));
+        largest = std::max(largest, rows.back().curvature_max);
+      }
       if (resists)
       {
         EXPECT_LT(largest_drift(rows, &StatisticsRow::area), 1e-10);
