@@ -66,9 +66,9 @@ void Membrane::add_parameters(dealii::ParameterHandler &prm)
   section.add(
       "Repair unresolved shapes", repair_unresolved_shapes,
       "What to do when steps fail and the mesh does not resolve the membrane, which has folds or spikes "
-      "within "
-      "a cell or two sheets in one: true: what is thinner than 1.5 cells is removed, two sheets so near each "
-      "other merge, and the run goes on, with the same enclosed area and masses; false: the run ends.");
+      "within a cell or two sheets in one: true: what is thinner than 1.5 cells (up to 6 where that leaves "
+      "shapes that are not resolved) is removed, two sheets so near each other merge, and the run goes on, "
+      "with the same enclosed area and masses; false: the run ends.");
 }
 
 void Membrane::check() const
