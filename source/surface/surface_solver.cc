@@ -1,4 +1,5 @@
 #include <gemmule/geometry/membrane_snapshot.h>
+#include <gemmule/geometry/membrane_transport.h>
 #include <gemmule/model/membrane_model.h>
 #include <gemmule/parameters/discretisation.h>
 #include <gemmule/surface/surface_solver.h>
@@ -88,20 +89,14 @@ MembranePointValues SurfaceSolver<dim>::tension(const MembranePointValues *const
 template <int dim>
 MembraneCloud<dim> SurfaceSolver<dim>::cloud() const
 {
-  MembraneCloud<dim> cloud;
-  for (unsigned int k = 0; k < space.geometry().cut_cells().size(); ++k)
-  {
-    const auto &cell = space.geometry().cut_cells()[k];
-    for (unsigned int q = 0; q < cell.surface_points.size(); ++q)
+  const auto &cells = space.geometry().cut_cells();
+  MembraneCloud<dim> cloud = bare_cloud(space.geometry());
+  for (unsigned int k = 0, i = 0; k < cells.size(); ++k)
+    for (const auto &p : cells[k].surface_points)
     {
-      const auto &p = cell.surface_points[q];
-      cloud.points.push_back(cell.physical(p));
-      cloud.normals.push_back(cell.normals[q]);
-      cloud.weights.push_back(cell.surface_weights[q]);
-      cloud.concentration.push_back(TensorLagrange<dim, 2>::value(phases.concentration()[k], p));
-      cloud.total_concentration.push_back(TensorLagrange<dim, 2>::value(total[k], p));
+      cloud.concentration[i] = TensorLagrange<dim, 2>::value(phases.concentration()[k], p);
+      cloud.total_concentration[i++] = TensorLagrange<dim, 2>::value(total[k], p);
     }
-  }
   return cloud;
 }
 
