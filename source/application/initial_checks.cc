@@ -215,14 +215,25 @@ void InitialChecks<dim>::concentrations(const Function<dim> &concentration,
 template <int dim>
 void InitialChecks<dim>::flow(const double largest_velocity) const
 {
-  if (std::isfinite(largest_velocity))
-    return;
   const auto &p = parameters;
-  throw UserError("the initial flow has no finite velocity: a parameter is too large or too small to compute "
-                  "with. Look at Fluid/Capillary number = " +
-                  Parameters::to_text(p.fluid.capillary_number) +
-                  ", Fluid/Viscosity ratio = " + Parameters::to_text(p.fluid.viscosity_ratio) +
-                  ", the tension (Membrane) and the penalties (Flow discretisation, Arclength constraint).");
+  const std::string where =
+      "Look at Domain/Boundary velocity = " + p.domain.boundary_velocity +
+      ", Fluid/Capillary number = " + Parameters::to_text(p.fluid.capillary_number) +
+      ", Fluid/Viscosity ratio = " + Parameters::to_text(p.fluid.viscosity_ratio) +
+      ", the tension (Membrane) and the penalties (Flow discretisation, Arclength constraint)";
+  if (!std::isfinite(largest_velocity))
+    throw UserError(
+        "the initial flow has no finite velocity: a parameter is too large or too small to compute "
+        "with. " +
+        where + ".");
+  const double cell_size = p.domain.cell_size(p.mesh.membrane_level);
+  const double smallest_step = p.time_stepping.smallest_step;
+  if (p.time_stepping.adaptive && largest_velocity * smallest_step > cell_size)
+    throw UserError("the initial flow is too fast to compute with: at its largest speed, " +
+                    Parameters::short_number(largest_velocity) +
+                    ", the fluid crosses a cell of the membrane (" + Parameters::to_text(cell_size) +
+                    ") within 'Time stepping/Smallest time step' = " + Parameters::to_text(smallest_step) +
+                    ". " + where + ".");
 }
 
 template class InitialChecks<2>;

@@ -57,7 +57,10 @@ public:
                       const dealii::Function<dim> &total_concentration,
                       const std::vector<dealii::Point<dim>> &points) const;
 
-  /** The velocity of the first flow has to be a number. */
+  /**
+   * The largest speed of the first flow has to be a number, and one with which the fluid does not cross a
+   * cell of the membrane's level within the smallest time step.
+   */
   void flow(double largest_velocity) const;
 
   /** "Membrane/Level set: ..." with the expression. */
