@@ -79,11 +79,12 @@ RepairReport CoupledSystem<dim>::begin_from_repaired_membrane()
   if (surface)
   {
     using Fields = MembraneFields<dim>;
+    const auto points = find_repaired_points(old_membrane, geometry, origin, communicator);
     const auto carry_over = [&](const auto field, const std::vector<double> &densities)
     {
       const auto &weights = current.cloud.weights;
       const double mass = std::inner_product(weights.begin(), weights.end(), densities.begin(), 0.);
-      return RepairedConcentration<dim>(old_membrane, field, mass, geometry, origin, communicator);
+      return RepairedConcentration<dim>(old_membrane, field, mass, geometry, points, communicator);
     };
     surface->initialise(geometry, level_set.get_dof_handler(), level_set.values(),
                         carry_over(&Fields::concentration, current.cloud.concentration),

@@ -1,6 +1,7 @@
 #include <gemmule/algebra/gather.h>
 #include <gemmule/application/reporting.h>
 #include <gemmule/geometry/curve_order.h>
+#include <gemmule/geometry/level_set_curvature.h>
 #include <gemmule/geometry/region_moments.h>
 
 #include <deal.II/numerics/data_out.h>
@@ -62,13 +63,7 @@ namespace
         if (const auto *const bending = system.get_bending())
           s.curvature = bending->curvature()[c][q];
         else
-        {
-          // div n of the level set, with respect to unit coordinates
-          const auto phi = evaluate_polynomial<dim, 3, 2>(cell.level_set, unit);
-          const double norm = phi.gradient.norm();
-          const Tensor<1, dim> n = phi.gradient / norm;
-          s.curvature = (trace(phi.hessian) - n * (phi.hessian * n)) / (norm * cell.size);
-        }
+          s.curvature = level_set_curvature(evaluate_polynomial<dim, 3, 2>(cell.level_set, unit), cell.size);
         samples.push_back(s);
       }
     }

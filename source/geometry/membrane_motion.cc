@@ -1,3 +1,4 @@
+#include <gemmule/geometry/level_set_curvature.h>
 #include <gemmule/geometry/membrane_motion.h>
 
 #include <cmath>
@@ -87,9 +88,7 @@ double MembraneMotion<dim>::fit_measure(const MembraneCloud<dim> &cloud, const d
       motion[i].deformation_by_tension += outer_product(e, gradients[k]) / patch.size;
     }
     const auto phi = evaluate_polynomial<dim, 3, 2>(patch.level_set, p.unit_point);
-    const double norm = phi.gradient.norm();
-    const Tensor<1, dim> n = phi.gradient / norm;
-    total_curvature += cloud.weights[i] * (trace(phi.hessian) - n * (phi.hessian * n)) / (norm * patch.size);
+    total_curvature += cloud.weights[i] * level_set_curvature(phi, patch.size);
   }
 
   // The oriented element of the moved membrane is the cofactor of F = grad(x + d) times that of the old one.

@@ -1,3 +1,4 @@
+#include <gemmule/geometry/level_set_curvature.h>
 #include <gemmule/geometry/membrane_projection.h>
 #include <gemmule/parameters/errors.h>
 
@@ -306,10 +307,7 @@ template <int dim>
 double MembraneProjection<dim>::curvature(const Sample &sample) const
 {
   const MembranePatch<dim> &patch = patches[sample.patch];
-  const auto phi = local_level_set(patch, sample.unit_point);
-  const double norm = phi.gradient.norm();
-  const Tensor<1, dim> n = phi.gradient / norm;
-  return (trace(phi.hessian) - n * (phi.hessian * n)) / (norm * patch.size);
+  return level_set_curvature(local_level_set(patch, sample.unit_point), patch.size);
 }
 
 template <int dim>

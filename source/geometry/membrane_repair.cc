@@ -76,13 +76,35 @@ double remove_small_features(const MembraneSnapshot<dim> &membrane, const double
 }
 
 template <int dim>
+std::vector<Point<dim>> find_repaired_points(const MembraneProjection<dim> &old_membrane,
+                                             const CutGeometry<dim> &geometry, const Point<dim> &origin,
+                                             const MPI_Comm communicator)
+{
+  const auto patches = gather_bare_patches(geometry, communicator);
+  const MembraneProjection<dim> new_membrane(patches, origin);
+  const double far = changed * largest_cell(old_membrane.get_patches());
+  std::vector<Point<dim>> points;
+  const auto compare = [&](const MembraneProjection<dim> &one, const MembraneProjection<dim> &other)
+  {
+    for (const auto &sample : one.samples())
+      if (std::abs(other.project(sample.point).distance) > far)
+        points.push_back(sample.point);
+  };
+  compare(old_membrane, new_membrane);
+  compare(new_membrane, old_membrane);
+  return points;
+}
+
+template <int dim>
 RepairedConcentration<dim>::RepairedConcentration(const MembraneProjection<dim> &old_membrane,
                                                   const Field field, const double mass,
-                                                  const CutGeometry<dim> &geometry, const Point<dim> &origin,
+                                                  const CutGeometry<dim> &geometry,
+                                                  const std::vector<Point<dim>> &repaired_points,
                                                   const MPI_Comm communicator)
-    : old_membrane(old_membrane), field(field), cell_size(largest_cell(old_membrane.get_patches()))
+    : old_membrane(old_membrane), field(field),
+      neighborhood(neighborhood_in_cells * largest_cell(old_membrane.get_patches())),
+      repaired_points(repaired_points)
 {
-  find_changes(geometry, origin, communicator);
   double carried_mass = 0., weighted_mass = 0.;
   for (const auto &cell : geometry.cut_cells())
     for (unsigned int q = 0; q < cell.surface_points.size(); ++q)
@@ -103,22 +125,6 @@ RepairedConcentration<dim>::RepairedConcentration(const MembraneProjection<dim> 
 }
 
 template <int dim>
-void RepairedConcentration<dim>::find_changes(const CutGeometry<dim> &geometry, const Point<dim> &origin,
-                                              const MPI_Comm communicator)
-{
-  const auto patches = gather_bare_patches(geometry, communicator);
-  const MembraneProjection<dim> new_membrane(patches, origin);
-  const auto compare = [&](const MembraneProjection<dim> &one, const MembraneProjection<dim> &other)
-  {
-    for (const auto &sample : one.samples())
-      if (std::abs(other.project(sample.point).distance) > changed * cell_size)
-        changes.push_back(sample.point);
-  };
-  compare(old_membrane, new_membrane);
-  compare(new_membrane, old_membrane);
-}
-
-template <int dim>
 double RepairedConcentration<dim>::carried(const Point<dim> &x) const
 {
   return old_membrane.value(old_membrane.project(x), field);
@@ -128,10 +134,9 @@ template <int dim>
 double RepairedConcentration<dim>::weight(const Point<dim> &x) const
 {
   double distance_square = std::numeric_limits<double>::max();
-  for (const auto &point : changes)
+  for (const auto &point : repaired_points)
     distance_square = std::min(distance_square, x.distance_square(point));
-  const double radius = neighborhood_in_cells * cell_size;
-  return std::exp(-distance_square / (radius * radius));
+  return std::exp(-distance_square / (neighborhood * neighborhood));
 }
 
 template <int dim>
@@ -144,6 +149,8 @@ double RepairedConcentration<dim>::value(const Point<dim> &x, const unsigned int
   template double largest_unresolved_cell(const MembraneProjection<dim> &, double);                          \
   template double remove_small_features(const MembraneSnapshot<dim> &, double, LevelSet<dim> &,              \
                                         CutGeometry<dim> &, MPI_Comm);                                       \
+  template std::vector<Point<dim>> find_repaired_points(                                                     \
+      const MembraneProjection<dim> &, const CutGeometry<dim> &, const Point<dim> &, MPI_Comm);              \
   template class RepairedConcentration<dim>;
 GEMMULE_INSTANTIATE(2)
 GEMMULE_INSTANTIATE(3)

@@ -128,9 +128,9 @@ bool StepControl::judge(const double estimate, const bool on_new_mesh)
 
 void StepControl::restart()
 {
-  n_started = 0;
-  rejected_step = rejected_error = floor = 0.;
-  floor_passes = false;
+  const double time_to_keep = now;
+  restore(StepControlMemory());
+  now = time_to_keep;
   wanted = start_step();
 }
 

@@ -5,6 +5,7 @@
 #include <gemmule/geometry/membrane_projection.h>
 
 #include <mpi.h>
+#include <vector>
 
 namespace Gemmule
 {
@@ -33,9 +34,20 @@ double remove_small_features(const MembraneSnapshot<dim> &membrane, double radiu
                              CutGeometry<dim> &geometry, MPI_Comm communicator);
 
 /**
+ * Points of either membrane that are farther from the other one than a twentieth of the old membrane's
+ * largest cell: what a repair has moved, removed or made.
+ *
+ * @param geometry cut mesh of the repaired membrane. Collective.
+ */
+template <int dim>
+std::vector<dealii::Point<dim>> find_repaired_points(const MembraneProjection<dim> &old_membrane,
+                                                     const CutGeometry<dim> &geometry,
+                                                     const dealii::Point<dim> &origin, MPI_Comm communicator);
+
+/**
  * Carries concentrations over to a repaired membrane. They are those at the closest points of the old one,
  * times 1 + a psi(x), with a such that the mass is that of the old membrane. psi = exp(-(d/R)^2), with d the
- * distance to what the repair has moved and R eight cells, so that what two membranes had where they have
+ * distance to the repaired points and R eight cells, so that what two membranes had where they have
  * merged goes to the neighbourhood; if that would ask for |a| > 1/4, psi = 1.
  */
 template <int dim>
@@ -46,25 +58,24 @@ public:
 
   /**
    * @param old_membrane must outlive the object
+   * @param mass of the old membrane
    * @param geometry cut mesh of the repaired membrane
-   * @param mass of the old membrane. Collective.
+   * @param repaired_points of find_repaired_points(); must outlive the object. Collective.
    */
   RepairedConcentration(const MembraneProjection<dim> &old_membrane, Field field, double mass,
-                        const CutGeometry<dim> &geometry, const dealii::Point<dim> &origin,
-                        MPI_Comm communicator);
+                        const CutGeometry<dim> &geometry,
+                        const std::vector<dealii::Point<dim>> &repaired_points, MPI_Comm communicator);
 
   double value(const dealii::Point<dim> &x, unsigned int component = 0) const override;
 
 private:
-  void find_changes(const CutGeometry<dim> &geometry, const dealii::Point<dim> &origin,
-                    MPI_Comm communicator);
   double carried(const dealii::Point<dim> &x) const;
   double weight(const dealii::Point<dim> &x) const;
 
   const MembraneProjection<dim> &old_membrane;
   const Field field;
-  double cell_size = 0.;
-  std::vector<dealii::Point<dim>> changes; ///< points of either membrane that are not on the other one
+  const double neighborhood; ///< R
+  const std::vector<dealii::Point<dim>> &repaired_points;
   bool is_local = true;
   double factor = 0.; ///< a
 };
