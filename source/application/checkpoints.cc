@@ -14,7 +14,7 @@ namespace Gemmule
 namespace
 {
   /** Of the whole checkpoint; raised when an older program could not read it, or not continue from it. */
-  const std::string schema_version = "3";
+  const std::string schema_version = "4";
 
   /** The last row of the statistics is in the state: a program with other columns cannot continue from it. */
   std::string n_statistics_columns()
@@ -174,6 +174,7 @@ void Checkpoints<dim>::write_files(RunState<dim> &state, const Provenance &prove
     metadata["statistics_columns"] = n_statistics_columns();
     metadata["program_version"] = program_version();
     metadata["time"] = Parameters::to_text(state.row.time);
+    metadata["finished"] = state.row.time >= parameters.end_time ? "yes" : "no";
     metadata["step"] = std::to_string(state.row.step);
     for (const auto &[name, value] : provenance.entries())
       if (value.find('\n') == std::string::npos)

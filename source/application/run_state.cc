@@ -37,11 +37,12 @@ void exchange(ArrayExchange &archive, RunState<dim> &state)
                   archive("wanted", memory.wanted);
                   archive("rejected_step", memory.rejected_step);
                   archive("rejected_error", memory.rejected_error);
+                  archive("last_step", memory.last_step);
                   archive("floor", memory.floor);
                   archive("floor_passes", memory.floor_passes);
                   archive("n_started", memory.n_started);
                   static_assert(
-                      sizeof(memory) == 6 * sizeof(double),
+                      sizeof(memory) == 7 * sizeof(double),
                       "StepControlMemory has a new member: give it a line above, then count it here");
                 });
 
@@ -51,6 +52,7 @@ void exchange(ArrayExchange &archive, RunState<dim> &state)
   archive.scope("membrane", [&] { exchange_samples(archive, state.membrane); });
   archive("membrane_is_written", state.membrane_is_written);
   archive("n_rejected", state.n_rejected);
+  archive("n_attempts", state.n_attempts);
   archive("last_repair", state.last_repair);
   archive("wall_time", state.wall_time);
   archive("n_interface_groups", state.n_interface_groups);

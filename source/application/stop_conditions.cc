@@ -16,7 +16,9 @@ namespace
     received_signal = signal;
   }
 
-  constexpr int signals[] = {SIGINT, SIGTERM, SIGUSR1, SIGXFSZ};
+  // The last two are ignored: a file or a pipe that takes no more is an error of that write, not the end. Who
+  // presses Ctrl-C before `gemmule | tee log` ends tee first.
+  constexpr int signals[] = {SIGINT, SIGTERM, SIGUSR1, SIGXFSZ, SIGPIPE};
 
   std::string name_of(const int signal)
   {
@@ -32,7 +34,7 @@ StopConditions::StopConditions(const double wall_time_limit, const MPI_Comm comm
   {
     struct sigaction action = {};
     sigemptyset(&action.sa_mask);
-    action.sa_handler = signals[i] == SIGXFSZ ? SIG_IGN : note_signal;
+    action.sa_handler = signals[i] == SIGXFSZ || signals[i] == SIGPIPE ? SIG_IGN : note_signal;
     // Whatever the libraries are reading or writing goes on.
     action.sa_flags = SA_RESTART;
     sigaction(signals[i], &action, &before[i]);

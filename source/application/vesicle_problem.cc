@@ -28,8 +28,6 @@ namespace
            std::any_of(times.begin(), times.end(), same);
   }
 
-  constexpr int exit_code_stopped = 3;
-
   // When a membrane that the mesh does not resolve is repaired: after so many attempts at one step, or when
   // steps are below so many times the smallest.
   constexpr unsigned int attempts_before_repair = 4;
@@ -90,34 +88,8 @@ void VesicleProblem<dim>::open_output(const RunState<dim> *resumed, std::unique_
   statistics = std::make_unique<StatisticsWriter>(directory->path(), communicator, resume_after_time);
   interface_writer =
       std::make_unique<InterfaceWriter<dim>>(directory->path(), communicator, provenance, resume_after_time);
-  field_writer =
-      std::make_unique<FieldWriter<dim>>(directory->path(), communicator, provenance, resume_after_time);
-}
-
-template <int dim>
-void VesicleProblem<dim>::continue_from(RunState<dim> &state, const std::vector<std::string> &notes)
-{
-  is_resumed = true;
-  control->restore(state.step_control);
-  row = state.row;
-  *membrane = std::move(state.membrane);
-  membrane_is_written = state.membrane_is_written;
-  n_rejected = state.n_rejected;
-  last_repair = state.last_repair;
-  earlier_wall_time = state.wall_time;
-
-  for (const std::string &note : notes)
-    log->warn(note);
-  // What is known on rank 0 only is compared there only; the other ranks' log is silent.
-  const auto compare = [&](const std::string &what, const std::size_t present, const std::size_t written)
-  {
-    if (Utilities::MPI::this_mpi_process(communicator) == 0 && present != written)
-      log->warn(what + " has " + std::to_string(present) + " of the " + std::to_string(written) +
-                " entries that had been written up to the checkpoint; the rest is missing.");
-  };
-  compare("statistics.csv", statistics->n_rows(), row.step + 1);
-  compare("interface.h5", interface_writer->n_groups(), state.n_interface_groups);
-  compare("solution.xdmf", field_writer->n_files(), state.n_field_files);
+  field_writer = std::make_unique<FieldWriter<dim>>(directory->path(), communicator, provenance,
+                                                    resumed != nullptr ? resumed->n_field_files : 0);
 }
 
 template <int dim>
@@ -151,6 +123,10 @@ void VesicleProblem<dim>::announce() const
   for (const auto &[name, value] : provenance.entries())
     log->record(name + (value.find('\n') == std::string::npos ? ": " : ":\n") + value);
   const std::string cells = std::to_string(mesh.n_global_active_cells()) + " cells";
+  if (!directory->earlier_run().empty())
+    log->warn("the directory held a run that had not finished. Its results are in " +
+              directory->earlier_run() + " now, and --resume --output " + directory->earlier_run() +
+              " continues it.");
   if (is_resumed)
     log->info("resumed at t = " + rounded(row.time) + " after " + std::to_string(row.step) +
               " steps; results in " + directory->path() + "; " + cells);
@@ -177,48 +153,44 @@ int VesicleProblem<dim>::run()
 
   while (!control->finished())
   {
-    if (const std::string reason = stop_conditions.reason_to_stop(); !reason.empty())
-    {
-      const std::string path = write_checkpoint();
-      log->info("stopped by " + reason + " at t = " + rounded(row.time) + " after " +
-                std::to_string(row.step) + " steps; the state is saved in " + path +
-                ", and --resume continues from it.");
-      return exit_code_stopped;
-    }
-    try
-    {
-      make_step();
-    }
-    catch (const SimulationError &error)
-    {
-      const std::string reason = error.what() + end_of_the_model();
-      save_last_state(reason);
-      throw SimulationError(reason);
-    }
-    catch (const ParameterError &error)
-    {
-      // An expression of t that makes no sense any more. All ranks find it together, and no smaller step
-      // helps.
-      const std::string reason = parameters.located(error).what();
-      save_last_state(reason);
-      throw SimulationError(reason);
-    }
-    catch (const std::exception &error)
-    {
-      // Of what kind it may be, with several ranks it need not have happened on all of them.
-      if (Utilities::MPI::n_mpi_processes(communicator) == 1)
-        save_last_state(error.what());
-      throw;
-    }
-    report();
-    write_output_if_due(control->finished());
-    if (control->finished() || checkpoints->is_due(row.step))
-      write_checkpoint();
+    if (const std::string reason = make_step(); !reason.empty())
+      return stop(reason);
+    write_results();
     if (parameters.output.progress)
       log->progress(system->time(), parameters.end_time, row.step, row.time_step_size);
   }
   print_timers();
   return 0;
+}
+
+template <int dim>
+std::string VesicleProblem<dim>::make_step()
+{
+  try
+  {
+    return attempt_step();
+  }
+  catch (const SimulationError &error)
+  {
+    const std::string reason = error.what() + end_of_the_model();
+    save_last_state(reason);
+    throw SimulationError(reason);
+  }
+  catch (const ParameterError &error)
+  {
+    // An expression of t that makes no sense any more. All ranks find it together, and no smaller step
+    // helps.
+    const std::string reason = parameters.located(error).what();
+    save_last_state(reason);
+    throw SimulationError(reason);
+  }
+  catch (const std::exception &error)
+  {
+    // Of what kind it may be, with several ranks it need not have happened on all of them.
+    if (Utilities::MPI::n_mpi_processes(communicator) == 1)
+      save_last_state(error.what());
+    throw;
+  }
 }
 
 template <int dim>
@@ -236,7 +208,7 @@ std::string VesicleProblem<dim>::end_of_the_model() const
 }
 
 template <int dim>
-bool VesicleProblem<dim>::repair_membrane(const unsigned int n_attempts, const double dt)
+bool VesicleProblem<dim>::repair_membrane(const double dt)
 {
   const auto &options = parameters.time_stepping;
   if (!parameters.membrane.repair_unresolved_shapes ||
@@ -245,6 +217,7 @@ bool VesicleProblem<dim>::repair_membrane(const unsigned int n_attempts, const d
   // What has not helped for an initial step of time will not help.
   if (control->time() < last_repair + options.initial_step || system->membrane_is_resolved())
     return false;
+  last_repair = control->time();
   const std::string at = "at t = " + rounded(control->time());
   try
   {
@@ -265,17 +238,20 @@ bool VesicleProblem<dim>::repair_membrane(const unsigned int n_attempts, const d
                                ": it is repaired ('Membrane/Repair unresolved shapes'), by topological "
                                "changes where two sheets share a cell. What follows depends on the mesh; "
                                "bending rigidity or a finer mesh may avoid it.");
-  last_repair = control->time();
   control->restart();
+  n_attempts = 0;
   return true;
 }
 
 template <int dim>
-void VesicleProblem<dim>::make_step()
+std::string VesicleProblem<dim>::attempt_step()
 {
   const auto &options = parameters.time_stepping;
-  for (unsigned int n_attempts = 1;; ++n_attempts)
+  while (true)
   {
+    // Before each attempt: where the run struggles, a step may take dozens of them.
+    if (std::string reason = stop_conditions.reason_to_stop(); !reason.empty())
+      return reason;
     const double dt = control->propose(options.interface_courant_number * system->capillary_time_step());
     try
     {
@@ -285,37 +261,82 @@ void VesicleProblem<dim>::make_step()
     }
     catch (const SimulationError &error)
     {
-      ++n_rejected;
-      if (repair_membrane(n_attempts, dt))
-      {
-        n_attempts = 0;
-        continue;
-      }
-      control->fail(error.what());
-      log->info("step " + std::to_string(row.step + 1) + " at t = " + rounded(control->time()) +
-                ", dt = " + rounded(dt) + " failed and is repeated with half the size: " + error.what());
+      fail_step(dt, error.what());
       continue;
     }
-    if (control->judge(std::max(error_shape, error_composition) / options.tolerance, system->mesh_is_new()))
-    {
-      if (control->noise_floor() > 0. && !system->mesh_is_new())
-        log->warn_once("noise floor",
-                       "at t = " + rounded(control->time()) + " the estimated local error (shape " +
-                           rounded(error_shape) + ", composition " + rounded(error_composition) +
-                           ") does not fall with the step size: it is one of the mesh, and tolerated. "
-                           "Refine the mesh ('Mesh/Phase boundary level'), or loosen 'Time "
-                           "stepping/Tolerance' = " +
-                           rounded(options.tolerance) + ".");
-      system->accept();
-      return;
-    }
+    if (accept_step(dt))
+      return "";
+  }
+}
+
+template <int dim>
+void VesicleProblem<dim>::fail_step(const double dt, const std::string &reason)
+{
+  ++n_rejected;
+  ++n_attempts;
+  if (repair_membrane(dt))
+    return;
+  control->fail(reason);
+  log->info("step " + std::to_string(row.step + 1) + " at t = " + rounded(control->time()) +
+            ", dt = " + rounded(dt) + " failed and is repeated with half the size: " + reason);
+}
+
+template <int dim>
+bool VesicleProblem<dim>::accept_step(const double dt)
+{
+  const double tolerance = parameters.time_stepping.tolerance;
+  bool is_good = false;
+  try
+  {
+    is_good = control->judge(std::max(error_shape, error_composition) / tolerance, system->mesh_is_new());
+  }
+  catch (const SimulationError &)
+  {
+    // It already had the smallest size.
     ++n_rejected;
-    log->info("step " + std::to_string(row.step + 1) + " at t = " + rounded(control->time()) +
-              ", dt = " + rounded(dt) + " rejected: error of the shape " + rounded(error_shape) +
-              ", of the composition " + rounded(error_composition) + ", tolerance " +
-              rounded(options.tolerance));
-    if (repair_membrane(n_attempts, dt))
-      n_attempts = 0;
+    ++n_attempts;
+    if (repair_membrane(dt))
+      return false;
+    throw;
+  }
+  if (is_good)
+  {
+    if (control->noise_floor() > 0. && !system->mesh_is_new())
+      log->warn_once("noise floor",
+                     "at t = " + rounded(control->time()) + " the estimated local error (shape " +
+                         rounded(error_shape) + ", composition " + rounded(error_composition) +
+                         ") does not fall with the step size: it is one of the mesh, and tolerated. "
+                         "Refine the mesh ('Mesh/Phase boundary level'), or loosen 'Time "
+                         "stepping/Tolerance' = " +
+                         rounded(tolerance) + ".");
+    system->accept();
+    n_attempts = 0;
+    return true;
+  }
+  ++n_rejected;
+  ++n_attempts;
+  log->info("step " + std::to_string(row.step + 1) + " at t = " + rounded(control->time()) +
+            ", dt = " + rounded(dt) + " rejected: error of the shape " + rounded(error_shape) +
+            ", of the composition " + rounded(error_composition) + ", tolerance " + rounded(tolerance));
+  repair_membrane(dt);
+  return false;
+}
+
+template <int dim>
+void VesicleProblem<dim>::write_results()
+{
+  try
+  {
+    report();
+    write_output_if_due(control->finished());
+    if (control->finished() || checkpoints->is_due(row.step))
+      write_checkpoint();
+  }
+  catch (const SimulationError &error)
+  {
+    log->info("stopped at t = " + rounded(row.time) + " after " + std::to_string(row.step) +
+              " steps: " + error.what());
+    throw;
   }
 }
 
@@ -382,47 +403,6 @@ void VesicleProblem<dim>::write_output_if_due(const bool at_end)
   }
   if (is_due(row.time, output.field_interval, output.output_times) || (at_end && output.field_interval > 0.))
     write_fields(*system, row.time, *field_writer);
-}
-
-template <int dim>
-void VesicleProblem<dim>::save_last_state(const std::string &reason)
-{
-  std::string saved;
-  try
-  {
-    // The mesh already belongs to the step that failed; the membrane of the last accepted step is kept as
-    // samples.
-    if (!membrane_is_written)
-      interface_writer->write(*membrane);
-    membrane_is_written = true;
-    saved = " The membrane of the last accepted step is in interface.h5";
-    saved += ", its state in " + write_checkpoint() + ".";
-  }
-  catch (const std::exception &error)
-  {
-    // The first error is the one that counts.
-    saved += "; its state cannot be saved: " + std::string(error.what());
-  }
-  log->info("stopped at t = " + rounded(row.time) + " after " + std::to_string(row.step) +
-            " steps: " + reason + saved);
-}
-
-template <int dim>
-std::string VesicleProblem<dim>::write_checkpoint()
-{
-  TimerOutput::Scope scope(system->timer(), "checkpoints");
-  RunState<dim> state;
-  state.system = system->state();
-  state.step_control = control->memory();
-  state.row = row;
-  state.membrane = *membrane;
-  state.membrane_is_written = membrane_is_written;
-  state.n_rejected = n_rejected;
-  state.last_repair = last_repair;
-  state.wall_time = earlier_wall_time + wall_clock.wall_time();
-  state.n_interface_groups = interface_writer->n_groups();
-  state.n_field_files = field_writer->n_files();
-  return checkpoints->write(state, provenance);
 }
 
 template <int dim>

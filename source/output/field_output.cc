@@ -7,10 +7,10 @@
 #include <deal.II/base/geometry_info.h>
 #include <deal.II/base/mpi.h>
 
-#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <iomanip>
+#include <regex>
 #include <sstream>
 
 namespace Gemmule
@@ -64,42 +64,48 @@ namespace
 
 template <int dim>
 FieldWriter<dim>::FieldWriter(const std::string &directory, const MPI_Comm &communicator,
-                              const Provenance &provenance, const double resume_after_time)
-    : directory(directory), communicator(communicator), provenance(provenance)
+                              const Provenance &provenance, const unsigned int n_earlier_files)
+    : directory(directory), communicator(communicator), provenance(provenance), n_written(n_earlier_files)
 {
   on_rank_zero(communicator,
                [&]()
                {
-                 if (std::isfinite(resume_after_time))
-                   find_earlier_files(resume_after_time);
-                 n_written = entries.size();
+                 remove_later_files();
+                 list_earlier_files();
+                 if (n_written > 0)
+                   replace_file(directory + "/solution.xdmf", xdmf_text<dim>(entries));
                });
-  n_written = dealii::Utilities::MPI::broadcast(communicator, n_written, 0);
 }
 
 template <int dim>
-void FieldWriter<dim>::find_earlier_files(const double resume_after_time)
+void FieldWriter<dim>::remove_later_files() const
 {
-  const double limit = resume_after_time + 1e-12 * std::max(1., std::abs(resume_after_time));
-  for (std::string path = directory + "/" + file_name(0); std::filesystem::exists(path);
-       path = directory + "/" + file_name(entries.size()))
+  const std::regex pattern("solution-([0-9]{5,9})\\.h5");
+  std::vector<std::filesystem::path> later;
+  std::smatch match;
+  std::error_code error; // a directory that is missing is found out when something is written
+  for (const auto &entry : std::filesystem::directory_iterator(directory, error))
+    if (const std::string name = entry.path().filename().string(); std::regex_match(name, match, pattern))
+      if (std::stoul(match[1]) >= n_written)
+        later.push_back(entry.path());
+  for (const auto &path : later)
+    std::filesystem::remove(path, error);
+}
+
+template <int dim>
+void FieldWriter<dim>::list_earlier_files()
+{
+  for (unsigned int number = 0; number < n_written; ++number)
     try
     {
-      const Hdf5File file(path, Hdf5File::Mode::read);
-      // The attribute is written last: a file without it is what a kill has left of an output.
-      if (!file.has_attribute("/", "time") || file.number_attribute("/", "time") > limit)
-        break;
-      entries.push_back(read_entry<dim>(file, file_name(entries.size())));
+      const std::string name = file_name(number);
+      if (std::filesystem::exists(directory + "/" + name))
+        entries.push_back(read_entry<dim>(Hdf5File(directory + "/" + name, Hdf5File::Mode::read), name));
     }
     catch (const SimulationError &)
     {
-      // The kill came so early that HDF5 cannot even open it.
-      break;
+      // Damaged, or not to be read just now: it stays where it is, and is not listed.
     }
-  for (std::size_t number = entries.size(); std::filesystem::remove(directory + "/" + file_name(number));
-       ++number)
-  {
-  }
 }
 
 template <int dim>

@@ -1,3 +1,4 @@
+#include <gemmule/output/checkpoint_directory.h>
 #include <gemmule/output/disk.h>
 #include <gemmule/output/output_directory.h>
 #include <gemmule/output/rank_zero.h>
@@ -38,22 +39,56 @@ namespace
                       "the parameter 'Output directory'.");
   }
 
+  /** Is there, besides results, what marks the output directory of a run? */
+  bool is_of_a_run(const std::string &directory)
+  {
+    return std::filesystem::exists(directory + "/parameters.prm") &&
+           std::filesystem::exists(directory + "/log.txt");
+  }
+
+  bool is_unfinished_run(const std::string &directory)
+  {
+    if (!is_of_a_run(directory))
+      return false;
+    std::vector<std::string> complaints;
+    const auto checkpoint = CheckpointDirectory(directory).newest_good(complaints);
+    return checkpoint && checkpoint->metadata.count("finished") > 0 &&
+           checkpoint->metadata.at("finished") != "yes";
+  }
+
+  /** Files of an earlier run that the new one writes too. */
+  std::vector<std::filesystem::path> earlier_results(const std::string &directory)
+  {
+    const std::regex ours("statistics\\.csv|interface\\.(h5|xdmf)|solution\\.xdmf|solution-[0-9]{5,}\\.h5|"
+                          "(statistics\\.csv|interface\\.(h5|xdmf)|solution\\.xdmf|parameters\\.prm)\\.part");
+    std::vector<std::filesystem::path> found;
+    for (const auto &entry : std::filesystem::directory_iterator(directory))
+      if (std::regex_match(entry.path().filename().string(), ours))
+        found.push_back(entry.path());
+    return found;
+  }
+
   /** Remove what an earlier run wrote, and nothing else. */
   void remove_earlier_results(const std::string &directory)
   {
     // A folder called checkpoint/ is only ours where the other marks of a run are.
-    if (std::filesystem::exists(directory + "/parameters.prm") &&
-        std::filesystem::exists(directory + "/log.txt"))
+    if (is_of_a_run(directory))
       std::filesystem::remove_all(directory + "/checkpoint");
-
-    const std::regex ours("statistics\\.csv|interface\\.(h5|xdmf)|solution\\.xdmf|solution-[0-9]{5,}\\.h5|"
-                          "(statistics\\.csv|interface\\.(h5|xdmf)|solution\\.xdmf|parameters\\.prm)\\.part");
-    std::vector<std::filesystem::path> stale;
-    for (const auto &entry : std::filesystem::directory_iterator(directory))
-      if (std::regex_match(entry.path().filename().string(), ours))
-        stale.push_back(entry.path());
-    for (const auto &path : stale)
+    for (const auto &path : earlier_results(directory))
       std::filesystem::remove(path);
+  }
+
+  /** Move what an earlier run wrote, so that it can be continued where it is then. */
+  void move_earlier_results(const std::string &directory, const std::string &target)
+  {
+    if (is_of_a_run(target))
+      std::filesystem::remove_all(target);
+    std::filesystem::create_directory(target);
+    auto paths = earlier_results(directory);
+    for (const char *name : {"log.txt", "checkpoint", "parameters.prm"})
+      paths.push_back(directory + "/" + name);
+    for (const auto &path : paths)
+      std::filesystem::rename(path, std::filesystem::path(target) / path.filename());
   }
 } // namespace
 
@@ -72,11 +107,16 @@ OutputDirectory::OutputDirectory(const std::string &path, const MPI_Comm &commun
                    return;
                  try
                  {
+                   if (is_unfinished_run(directory))
+                   {
+                     moved_to = directory + "/earlier-run";
+                     move_earlier_results(directory, moved_to);
+                   }
                    remove_earlier_results(directory);
                  }
                  catch (const std::filesystem::filesystem_error &error)
                  {
-                   throw UserError("Cannot remove the results of an earlier run (" +
+                   throw UserError("Cannot remove or move the results of an earlier run (" +
                                    std::string(error.what()) + "): choose another directory with --output.");
                  }
                });

@@ -91,8 +91,9 @@ void RunLog::write_line(const std::string &line)
   if (!is_active)
     return;
   end_progress_line();
-  console.stream << line << std::endl;
+  // The console may be gone.
   file << line << std::endl;
+  console.stream << line << std::endl;
 }
 
 void RunLog::end_progress_line()

@@ -19,6 +19,8 @@ namespace
   constexpr double fading = 0.99;
   // The same when it comes from a change of the mesh, which later steps do not see.
   constexpr double fading_after_change = 0.5;
+  // BDF2 is stable for ratios of successive steps up to 1 + sqrt(2).
+  constexpr double largest_ratio = 2.4;
   // Halvings of the initial step for the first one, of first order.
   constexpr unsigned int largest_number_of_halvings = 4;
 } // namespace
@@ -48,8 +50,10 @@ double StepControl::propose(const double stability_limit)
   double step = std::min(wanted, parameters.largest_step);
   if (parameters.adaptive)
     step = std::min(step, stability_limit);
-  const auto next = std::upper_bound(stops.begin(), stops.end(), now + same * step);
+  if (last_step > 0.) // which a stop may have cut to a remainder
+    step = std::min(step, std::max(largest_ratio * last_step, parameters.smallest_step));
   const double whole_step = step;
+  const auto next = std::upper_bound(stops.begin(), stops.end(), now + same * step);
   const double left = (next == stops.end() ? stops.back() : *next) - now;
   if (step >= left * (1. - same))
     step = left;
@@ -116,7 +120,11 @@ bool StepControl::judge(const double estimate, const bool on_new_mesh)
     ++n_started;
     wanted = start_step();
   }
+  else if (!parameters.adaptive)
+    // A step that could not be computed says nothing about the next one.
+    wanted = parameters.initial_step;
   rejected_step = 0.;
+  last_step = proposed;
 
   const auto next = std::upper_bound(stops.begin(), stops.end(), now + same * proposed);
   now += proposed;

@@ -153,13 +153,52 @@ TEST_F(Disaster, WithoutAnyUsableCheckpointItSaysWhy)
         << result.err;
 }
 
-TEST_F(Disaster, MissingResultsAreReported)
+TEST_F(Disaster, MissingAndDamagedResultsAreReportedAndCostNoOthers)
 {
   make_interrupted_run();
-  std::filesystem::remove(results() + "/solution-00001.h5");
+  std::filesystem::remove(results() + "/solution-00000.h5");
+  std::filesystem::resize_file(results() + "/solution-00001.h5", 1000);
   const Result result = run_gemmule(directory, run("--resume"));
   EXPECT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_NE(log().find("warning: solution.xdmf has 1 of the "), std::string::npos) << log();
+  EXPECT_NE(log().find("warning: solution.xdmf has 1 of the 3 "), std::string::npos) << log();
+  EXPECT_FALSE(std::filesystem::exists(results() + "/solution-00000.h5"));
+  EXPECT_EQ(std::filesystem::file_size(results() + "/solution-00001.h5"), 1000u);
+  auto others = field_files(reference());
+  others.erase("solution-00000.h5");
+  others.erase("solution-00001.h5");
+  for (const std::string &name : others)
+    Comparison().fields(reference() + "/" + name, results() + "/" + name);
+  Comparison().statistics(reference(), results());
+  Comparison().membrane(reference() + "/interface.h5", results() + "/interface.h5");
+}
+
+// Who presses Ctrl-C before `gemmule | tee log` ends tee first.
+TEST_F(Disaster, AReaderOfTheOutputThatHasGoneDoesNotEndTheRun)
+{
+  const Result result = run_gemmule(directory, run("| true"));
+  ASSERT_EQ(result.exit_code, 0);
+  EXPECT_NE(log().find("finished: t = 0.15"), std::string::npos) << log();
+  Comparison().results(reference(), results());
+}
+
+TEST_F(Disaster, AnUnfinishedRunIsNotLostWhenResumeIsForgotten)
+{
+  make_interrupted_run();
+  const std::size_t n_before = n_rows(results());
+  ASSERT_EQ(run_gemmule(directory, run()).exit_code, 0);
+  EXPECT_NE(log().find("warning: the directory held a run that had not finished"), std::string::npos)
+      << log();
+  Comparison().results(reference(), results());
+  const std::string earlier = results() + "/earlier-run";
+  EXPECT_EQ(n_rows(earlier), n_before);
+  const Result resumed = run_gemmule(directory, run("--resume", "run/earlier-run"));
+  EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
+  Comparison().results(reference(), earlier);
+
+  // What has finished is replaced.
+  ASSERT_EQ(run_gemmule(directory, run("--set 'End time=0.002'")).exit_code, 0);
+  EXPECT_EQ(log().find("had not finished"), std::string::npos) << log();
+  EXPECT_EQ(n_rows(earlier), n_rows(reference()));
 }
 
 // A limit on the size of files does to a program what a full disk does, and needs no permissions.

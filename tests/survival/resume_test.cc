@@ -86,6 +86,50 @@ TEST_F(Resume, BendingAndTheArclengthMultiplierContinueBitwise)
   Comparison().results(directory.file("uninterrupted"), results());
 }
 
+// The numerical rigidity comes with negative tension and goes with it: whether there is any must not depend
+// on what came before.
+TEST_F(Resume, AfterATimeOfNegativeTensionContinuesBitwise)
+{
+  const std::string options = "--set 'Membrane/Tension model=prescribed' "
+                              "--set 'Membrane/Prescribed tension=0.3+cos(80*t)' --set 'End time=0.1' "
+                              "--set 'Time stepping/Largest time step=0.003' ";
+  const Result whole = run_gemmule(directory, run(options, "whole"));
+  ASSERT_EQ(whole.exit_code, 0) << whole.err;
+  const TextTable rows = read_text_table(directory.file("whole/statistics.csv"));
+  std::size_t last_negative = 0;
+  for (std::size_t i = 0; i < rows.at("time").size(); ++i)
+    if (std::stod(rows.at("grid_scale_rigidity")[i]) > 0.)
+      last_negative = i;
+  ASSERT_GT(last_negative, 5u);
+  ASSERT_LT(last_negative + 6, rows.at("time").size());
+  ASSERT_EQ(stop_after(last_negative + 4, SIGTERM, options), 3) << directory.read(".stderr");
+  ASSERT_LT(n_rows(results()), n_rows(directory.file("whole")));
+  resume_to_the_end(options);
+  Comparison().results(directory.file("whole"), results());
+}
+
+TEST_F(Resume, ASignalIsHeardBetweenAttemptsAtAStep)
+{
+  // No step can be computed after some time; there are ten attempts until the smallest one has failed.
+  const std::string failing = "--set 'Domain/Boundary velocity=20; 0' --set 'Time stepping/Tolerance=1' "
+                              "--set 'Time stepping/Initial time step=0.004' "
+                              "--set 'Time stepping/Smallest time step=1e-5' "
+                              "--set 'Membrane/Repair unresolved shapes=false' ";
+  const Result whole = run_gemmule(directory, run(failing, "whole"));
+  ASSERT_EQ(whole.exit_code, 2) << whole.out;
+  RunningProgram program(directory, run(failing));
+  ASSERT_TRUE(
+      program.wait_for([&] { return log().find("failed and is repeated with half") != std::string::npos; }));
+  program.send(SIGTERM);
+  ASSERT_EQ(program.wait(), 3) << log();
+  const std::size_t n_accepted = n_rows(results());
+  const Result resumed = run_gemmule(directory, run(failing + "--resume"));
+  EXPECT_EQ(resumed.exit_code, 2);
+  EXPECT_EQ(resumed.err, whole.err);
+  EXPECT_GE(n_rows(results()), n_accepted);
+  Comparison().statistics(directory.file("whole"), results());
+}
+
 TEST_F(Resume, CheckpointsComeAfterTheGivenNumberOfStepsAndTheLastAreKept)
 {
   const Result result = run_gemmule(
@@ -105,9 +149,9 @@ TEST_F(Resume, CheckpointsComeAfterTheGivenNumberOfStepsAndTheLastAreKept)
     std::ifstream file(kept[i] + "/metadata.txt");
     const std::string metadata(std::istreambuf_iterator<char>(file), {});
     EXPECT_NE(metadata.find(expected_steps[i]), std::string::npos) << metadata;
-    for (const char *name :
-         {"schema_version = 3\n", "statistics_columns = ", "git_revision = ", "libraries = deal.II 9",
-          "p4est", "command_line = ", "date = 20", "file parameters.prm = ", "file state.h5 = "})
+    for (const char *name : {"schema_version = 4\n", "finished = ", "statistics_columns = ",
+                             "git_revision = ", "libraries = deal.II 9", "p4est",
+                             "command_line = ", "date = 20", "file parameters.prm = ", "file state.h5 = "})
       EXPECT_NE(metadata.find(name), std::string::npos) << name << " in\n" << metadata;
   }
 }

@@ -162,7 +162,9 @@ private:
     bool same = true;
     for (std::size_t i = 0; i < a.size(); ++i)
     {
-      largest = std::max(largest, std::abs(a[i] - b[i]) / std::max(1., std::abs(a[i])));
+      const double difference = std::abs(a[i] - b[i]) / std::max(1., std::abs(a[i]));
+      ASSERT_TRUE(std::isfinite(difference)) << what << ": " << a[i] << " and " << b[i];
+      largest = std::max(largest, difference);
       same = same && a[i] == b[i];
     }
     if (tolerance == 0.)

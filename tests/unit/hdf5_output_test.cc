@@ -193,13 +193,55 @@ TEST_F(ParallelOutputTest, FieldsAreReadBackAndResumed)
   const std::string complete = content("solution.xdmf");
   on_rank_zero(MPI_COMM_WORLD,
                [&]() { std::ofstream(path("solution-00002.h5")) << "what is left by an early kill"; });
-  FieldWriter<2> resumed(directory, MPI_COMM_WORLD, Provenance(), 0.5);
+  FieldWriter<2> resumed(directory, MPI_COMM_WORLD, Provenance(), 2);
   EXPECT_EQ(std::filesystem::exists(path("solution-00001.h5")), true);
   EXPECT_EQ(std::filesystem::exists(path("solution-00002.h5")), false);
+  EXPECT_EQ(content("solution.xdmf").find("solution-00002.h5"), std::string::npos);
   resumed.write(data, 1.);
   // The entries of the earlier files were read from them, and must be what was said when they were written.
   EXPECT_EQ(content("solution.xdmf"), complete);
   EXPECT_NE(complete.find("solution-00002.h5:/level_set"), std::string::npos);
+}
+
+TEST_F(ParallelOutputTest, FieldsThatAreDamagedOrMissingCostNoOther)
+{
+  dealii::parallel::distributed::Triangulation<2> triangulation(MPI_COMM_WORLD);
+  dealii::GridGenerator::hyper_cube(triangulation, -1., 1.);
+  triangulation.refine_global(2);
+  dealii::DataOut<2> data;
+  data.attach_triangulation(triangulation);
+  dealii::Vector<float> values(triangulation.n_active_cells());
+  data.add_data_vector(values, "level", dealii::DataOut<2>::type_cell_data);
+  data.build_patches();
+  {
+    FieldWriter<2> writer(directory, MPI_COMM_WORLD, Provenance());
+    for (const double time : {0., 0.25, 0.5, 0.75, 1.})
+      writer.write(data, time);
+  }
+  on_rank_zero(MPI_COMM_WORLD,
+               [&]()
+               {
+                 std::filesystem::remove(path("solution-00000.h5"));
+                 std::ofstream(path("solution-00001.h5")) << "damaged";
+               });
+  FieldWriter<2> resumed(directory, MPI_COMM_WORLD, Provenance(), 4);
+  EXPECT_EQ(resumed.n_files(), 4u);
+  resumed.write(data, 1.);
+  on_rank_zero(MPI_COMM_WORLD,
+               [&]()
+               {
+                 EXPECT_EQ(resumed.n_listed(), 3u);
+                 EXPECT_FALSE(std::filesystem::exists(path("solution-00000.h5")));
+                 EXPECT_EQ(content("solution-00001.h5"), "damaged");
+                 const std::string xdmf = content("solution.xdmf");
+                 for (const unsigned int i : {2, 3, 4})
+                 {
+                   const std::string name = "solution-0000" + std::to_string(i) + ".h5";
+                   const Hdf5File file(path(name), Hdf5File::Mode::read);
+                   EXPECT_EQ(file.number_attribute("/", "time"), 0.25 * i);
+                   EXPECT_NE(xdmf.find(name), std::string::npos);
+                 }
+               });
 }
 
 TEST_F(ParallelOutputTest, FieldsThatCannotBeWrittenFailOnAllRanks)

@@ -81,6 +81,51 @@ TEST(StepControl, NeverStartsBelowTheSmallestStep)
   }
 }
 
+TEST(StepControl, GrowsSlowlyAfterARemainder)
+{
+  // BDF2 is not stable for the ratio of a whole step to what is left between two stops that nearly coincide.
+  for (const bool adaptive : {false, true})
+  {
+    auto p = parameters();
+    p.adaptive = adaptive;
+    StepControl control(p, 0., {0.1, 0.1005, 1.});
+    double last = 0.;
+    bool was_cut = false;
+    while (!control.finished())
+    {
+      const double step = control.propose(unlimited);
+      if (last > 0.)
+      {
+        EXPECT_LE(step, 2.4 * last * (1. + 1e-12)) << "at " << control.time();
+      }
+      was_cut = was_cut || step < 0.06 * last;
+      last = step;
+      ASSERT_TRUE(control.judge(0.5));
+    }
+    EXPECT_TRUE(was_cut);
+  }
+}
+
+TEST(StepControl, OfFixedSizeForgetsAFailure)
+{
+  auto p = parameters();
+  p.adaptive = false;
+  StepControl control(p, 0., {10.});
+  for (unsigned int i = 0; i < 3; ++i)
+  {
+    control.propose(unlimited);
+    control.judge(0.5);
+  }
+  control.propose(unlimited);
+  control.fail("for this test.");
+  for (unsigned int i = 0; i < 6; ++i)
+  {
+    control.propose(unlimited);
+    control.judge(0.5);
+  }
+  EXPECT_DOUBLE_EQ(control.propose(unlimited), p.initial_step);
+}
+
 TEST(StepControl, RepeatsABadStepSmallerAndStaysWhereItIs)
 {
   StepControl control(parameters(), 0.5, {2.});

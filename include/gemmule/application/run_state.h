@@ -7,7 +7,7 @@
 
 namespace Gemmule
 {
-/** Everything that a run carries from one accepted step to the next. */
+/** Everything that a run carries from one accepted step, or attempt at one, to the next. */
 template <int dim>
 struct RunState
 {
@@ -18,8 +18,9 @@ struct RunState
   InterfaceSamples<dim> membrane;   ///< of the same
   bool membrane_is_written = false; ///< to interface.h5
   unsigned int n_rejected = 0;      ///< steps that were repeated
-  double last_repair = -1.;         ///< time at which the membrane was repaired last; negative: never
-  double wall_time = 0.;            ///< seconds of all runs so far
+  unsigned int n_attempts = 0;      ///< at the next step, in vain
+  double last_repair = -1.; ///< time of the last repair of the membrane, tried or done; negative: never
+  double wall_time = 0.;    ///< seconds of all runs so far
 
   // How much has been written, to notice what is missing.
   unsigned int n_interface_groups = 0;

@@ -26,7 +26,7 @@ public:
   std::string reason_to_stop() const;
 
 private:
-  static constexpr int n_signals = 4;
+  static constexpr int n_signals = 5;
   const double wall_time_limit;
   const MPI_Comm communicator;
   const dealii::Timer wall_clock;

@@ -52,22 +52,38 @@ private:
   void continue_from(RunState<dim> &state, const std::vector<std::string> &notes);
   std::vector<double> stops() const;
   void announce() const;
-  /** One accepted step, however many attempts that takes. */
-  void make_step();
+  /**
+   * One accepted step, however many attempts that takes; what goes wrong for good is saved before it is
+   * thrown.
+   * @return empty, or why to stop before the step is done
+   */
+  std::string make_step();
+  /** make_step() without saving. */
+  std::string attempt_step();
+  /** Whether a step of size @p dt that could be computed is good enough; repairs the membrane like
+   * fail_step(). */
+  bool accept_step(double dt);
+  /** After an attempt of size @p dt that could not be computed: the next one is smaller, or from a repair on.
+   */
+  void fail_step(double dt, const std::string &reason);
   /**
    * After an attempt of size @p dt at a step that was not accepted: repairs the membrane if it is the reason
    * and that is allowed. @return whether the step can be tried again from a new beginning.
    */
-  bool repair_membrane(unsigned int n_attempts, double dt);
+  bool repair_membrane(double dt);
   /** What to add to the reason of a failure if the total concentration has all but vanished; else nothing. */
   std::string end_of_the_model() const;
   void report();
   void warn_of_negative_tension();
+  /** Statistics, output and checkpoint of the accepted step, as far as they are due. */
+  void write_results();
   void write_output_if_due(bool at_end);
   /** Before the run ends with an error: what was accepted last goes to the disk. */
   void save_last_state(const std::string &reason);
   /** @return its path */
   std::string write_checkpoint();
+  /** Saves the state. @return exit code */
+  int stop(const std::string &reason);
   void print_timers();
 
   const AllParameters parameters;
@@ -92,7 +108,8 @@ private:
   StatisticsRow row, previous_row;
   double error_shape = 0., error_composition = 0.;
   unsigned int n_rejected = 0;
-  double last_repair = -1.; ///< time at which the membrane was repaired last; negative: never
+  unsigned int n_attempts = 0; ///< at the step in work, in vain
+  double last_repair = -1.;    ///< time of the last repair of the membrane, tried or done; negative: never
 };
 
 /** Checks what needs more than the parameters themselves: the initial membrane. @throws UserError.

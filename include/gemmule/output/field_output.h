@@ -4,7 +4,6 @@
 
 #include <deal.II/base/data_out_base.h>
 
-#include <limits>
 #include <mpi.h>
 #include <string>
 #include <vector>
@@ -25,11 +24,11 @@ public:
    *
    * @param directory existing directory of the results
    * @param provenance is recorded in every file
-   * @param resume_after_time go on after the existing files up to this time, remove the later ones; by
-   * default start with number 0
+   * @param n_earlier_files go on after as many files of an earlier run. They stay as they are, those that can
+   * be read are listed in solution.xdmf; later ones are removed.
    */
   FieldWriter(const std::string &directory, const MPI_Comm &communicator, const Provenance &provenance,
-              double resume_after_time = -std::numeric_limits<double>::infinity());
+              unsigned int n_earlier_files = 0);
 
   /**
    * Write the patches that @p data was built with; for example a DataOut<dim> after build_patches().
@@ -42,8 +41,12 @@ public:
   /** Number of files so far. */
   unsigned int n_files() const { return n_written; }
 
+  /** Number of those that solution.xdmf lists; known on rank 0. */
+  std::size_t n_listed() const { return entries.size(); }
+
 private:
-  void find_earlier_files(double resume_after_time);
+  void remove_later_files() const;
+  void list_earlier_files();
 
   const std::string directory;
   const MPI_Comm communicator;

@@ -11,8 +11,9 @@ namespace Gemmule
 /**
  * The directory of the results (design section 4). Construction creates it with its parents, checks that it
  * can be written to and, unless the run is resumed, removes what an earlier run left under the program's own
- * file names, so that nothing stale mixes with the new results. Other files stay. As long as the object lives
- * no other run can use the directory.
+ * file names, so that nothing stale mixes with the new results. Other files stay. A run that can be
+ * continued, because it has a checkpoint and has not finished, is not removed but moved to `earlier-run`,
+ * whose last content gives way. As long as the object lives no other run can use the directory.
  */
 class OutputDirectory
 {
@@ -30,6 +31,9 @@ public:
 
   const std::string &path() const { return directory; }
 
+  /** Where an unfinished run has been moved to, on rank 0; empty if there was none. */
+  const std::string &earlier_run() const { return moved_to; }
+
   /** Path of the file @p name in the directory. */
   std::string file(const std::string &name) const;
 
@@ -44,5 +48,6 @@ private:
   const std::string directory;
   const MPI_Comm communicator;
   std::unique_ptr<DirectoryLock> lock; ///< on rank 0
+  std::string moved_to;
 };
 } // namespace Gemmule

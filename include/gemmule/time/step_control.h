@@ -16,6 +16,7 @@ struct StepControlMemory
   double now = 0.;
   double wanted = 0.;                             ///< step that the controller would like
   double rejected_step = 0., rejected_error = 0.; ///< last rejection at this time, if any
+  double last_step = 0.;                          ///< size of the last accepted step; 0: none
   double floor = 0.;
   bool floor_passes = false;  ///< the floor comes from a change of the mesh
   unsigned int n_started = 0; ///< steps of the start that are done; n_halvings + 1: the start is over
@@ -42,8 +43,8 @@ public:
   bool finished() const { return now >= stops.back(); }
 
   /**
-   * Size of the next step: what the controller wants, at most @p stability_limit, cut so that it ends on the
-   * next stop (or spreads what is left over two steps, to avoid a tiny last one).
+   * Size of the next step: what the controller wants, at most @p stability_limit and 2.4 times the last one,
+   * cut so that it ends on the next stop (or spreads what is left over two steps, to avoid a tiny last one).
    */
   double propose(double stability_limit);
 
