@@ -1,3 +1,4 @@
+#include <gemmule/algebra/arrival.h>
 #include <gemmule/algebra/mumps_solver.h>
 #include <gemmule/parameters/errors.h>
 
@@ -5,6 +6,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <dmumps_c.h>
+#include <exception>
 
 namespace Gemmule
 {
@@ -71,6 +73,10 @@ MumpsSolver::MumpsSolver(const MPI_Comm communicator, const bool symmetric) : in
 
 MumpsSolver::~MumpsSolver()
 {
+  // On the way out of a failure that need not be one of all processes: MUMPS would wait for the others for
+  // ever, and nobody would learn of the failure. What it has allocated ends with the process.
+  if (std::uncaught_exceptions() > 0 && !all_processes_arrive(instance->communicator))
+    return;
   instance->run(job_terminate);
 }
 

@@ -1,3 +1,4 @@
+#include <gemmule/algebra/arrival.h>
 #include <gemmule/application/command_line.h>
 #include <gemmule/application/vesicle_problem.h>
 #include <gemmule/parameters/all_parameters.h>
@@ -6,11 +7,11 @@
 
 #include <deal.II/base/mpi.h>
 
-#include <chrono>
 #include <functional>
 #include <iostream>
+#include <limits>
 #include <new>
-#include <thread>
+#include <sstream>
 
 namespace
 {
@@ -55,25 +56,6 @@ int guarded(const std::function<int()> &action, std::string &message)
 }
 
 /**
- * Whether all processes come here within some seconds. A process that failed alone leaves the others waiting
- * in a communication that never completes.
- */
-bool all_processes_arrive(const MPI_Comm communicator)
-{
-  MPI_Request request;
-  MPI_Ibarrier(communicator, &request);
-  const auto start = std::chrono::steady_clock::now();
-  int arrived = 0;
-  while (MPI_Test(&request, &arrived, MPI_STATUS_IGNORE), arrived == 0)
-  {
-    if (std::chrono::steady_clock::now() - start > std::chrono::seconds(10))
-      return false;
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));
-  }
-  return true;
-}
-
-/**
  * Carries out @p action on all processes and reports what went wrong, once.
  * @return the largest exit code of all processes
  */
@@ -83,15 +65,26 @@ int run_on_all(const std::function<int()> &action, const MPI_Comm communicator)
   const int code = guarded(action, message);
   const unsigned int rank = dealii::Utilities::MPI::this_mpi_process(communicator);
   const unsigned int n_ranks = dealii::Utilities::MPI::n_mpi_processes(communicator);
-  if (!all_processes_arrive(communicator))
+  // One that has succeeded can wait for the others as long as it takes.
+  if (!message.empty() && !all_processes_arrive(communicator))
   {
     std::cerr << "gemmule: error: process " << rank << ": " << Parameters::printable(message) << std::endl;
     MPI_Abort(MPI_COMM_WORLD, code);
   }
+  if (message.empty())
+    all_processes_arrive(communicator, std::numeric_limits<double>::infinity());
   const unsigned int speaker = dealii::Utilities::MPI::min(message.empty() ? n_ranks : rank, communicator);
   if (rank == speaker)
     std::cerr << "gemmule: error: " << Parameters::printable(message) << std::endl;
   return dealii::Utilities::MPI::max(code, communicator);
+}
+
+/** Writes what was asked for. @throws SimulationError if standard output does not take it */
+void say(const std::string &text)
+{
+  std::cout << text << std::flush;
+  if (!std::cout)
+    throw SimulationError("cannot write to standard output: is the disk full, or the reader gone?");
 }
 
 template <int dim>
@@ -122,10 +115,11 @@ int main(int argc, char **argv)
     command = CommandLine::parse(argc, argv);
     if (command.information.empty())
       parameters.parse(command.case_file, command.overrides);
+    std::ostringstream text;
+    if (command.information.empty() && command.print_parameters)
+      parameters.print(text);
     if (speaks)
-      std::cout << command.information;
-    if (command.information.empty() && command.print_parameters && speaks)
-      parameters.print(std::cout);
+      say(command.information + text.str());
     done = command.print_parameters || !command.information.empty();
     return finished;
   };
@@ -146,10 +140,16 @@ int main(int argc, char **argv)
           }
         },
         communicator);
-    if (code == finished && command.check && speaks)
-      std::cout << command.case_file << ": the parameters are valid." << std::endl;
+    if (code == finished && command.check)
+      code = run_on_all(
+          [&]() -> int
+          {
+            if (speaks)
+              say(command.case_file + ": the parameters are valid.\n");
+            return finished;
+          },
+          communicator);
   }
-  std::cout.flush();
   MPI_Comm to_free = communicator;
   dealii::Utilities::MPI::free_communicator(to_free);
   return code;

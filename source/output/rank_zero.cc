@@ -1,6 +1,7 @@
 #include <gemmule/output/rank_zero.h>
 #include <gemmule/parameters/errors.h>
 
+#include <new>
 #include <string>
 
 namespace Gemmule
@@ -11,7 +12,8 @@ namespace
   {
     success = 0,
     user_error = 1,
-    simulation_error = 2
+    simulation_error = 2,
+    out_of_memory = 3
   };
 } // namespace
 
@@ -33,6 +35,10 @@ void on_rank_zero(const MPI_Comm &communicator, const std::function<void()> &act
       report[0] = user_error;
       message = error.what();
     }
+    catch (const std::bad_alloc &)
+    {
+      report[0] = out_of_memory;
+    }
     catch (const std::exception &error)
     {
       report[0] = simulation_error;
@@ -48,6 +54,8 @@ void on_rank_zero(const MPI_Comm &communicator, const std::function<void()> &act
   MPI_Bcast(message.data(), report[1], MPI_CHAR, 0, communicator);
   if (report[0] == user_error)
     throw UserError(message);
+  if (report[0] == out_of_memory)
+    throw std::bad_alloc();
   throw SimulationError(message);
 }
 } // namespace Gemmule
