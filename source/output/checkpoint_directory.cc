@@ -148,6 +148,7 @@ void CheckpointDirectory::complete(const Metadata &metadata, const unsigned int 
   replace_file(path + "/" + metadata_name, text.str(), /*durable =*/true);
   synchronise(path);
   synchronise(directory);
+  synchronise(directory + "/.."); // which has had no entry for it before the first one
 
   std::vector<unsigned int> complete_ones, others;
   for (const unsigned int number : numbers())

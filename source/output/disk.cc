@@ -3,6 +3,7 @@
 
 #include <array>
 #include <boost/crc.hpp>
+#include <cerrno>
 #include <cstdio>
 #include <fcntl.h>
 #include <fstream>
@@ -35,7 +36,10 @@ void reserve_space(const std::string &path, const std::size_t bytes)
 {
   const int file = open(path.c_str(), O_RDWR | O_CREAT, 0666);
   const off_t size = file < 0 ? -1 : lseek(file, 0, SEEK_END);
-  const bool has_room = size >= 0 && posix_fallocate(file, size, static_cast<off_t>(bytes)) == 0;
+  int error = EINTR;
+  while (size >= 0 && error == EINTR) // by a signal, which the program notes and acts on later
+    error = posix_fallocate(file, size, static_cast<off_t>(bytes));
+  const bool has_room = size >= 0 && error == 0;
   // What was allocated before the disk was full has to go; if that fails too there is nothing left to try.
   const bool is_restored = has_room || size < 0 || ftruncate(file, size) == 0;
   if (file >= 0)
@@ -49,7 +53,8 @@ void reserve_space(const std::string &path, const std::size_t bytes)
 void synchronise(const std::string &path)
 {
   const int file = open(path.c_str(), O_RDONLY);
-  const bool is_on_disk = file >= 0 && fsync(file) == 0;
+  // Some file systems have no such operation for directories: there is nothing to wait for, then.
+  const bool is_on_disk = file >= 0 && (fsync(file) == 0 || errno == EINVAL || errno == ENOTSUP);
   if (file >= 0)
     close(file);
   if (!is_on_disk)
@@ -78,8 +83,17 @@ namespace
 void copy_file(const std::string &from, const std::string &to)
 {
   std::ofstream copy(to, std::ios::binary | std::ios::trunc);
-  read_in_pieces(from, [&](const char *data, const std::size_t size)
-                 { copy.write(data, static_cast<long>(size)); });
+  try
+  {
+    read_in_pieces(from, [&](const char *data, const std::size_t size)
+                   { copy.write(data, static_cast<long>(size)); });
+  }
+  catch (const SimulationError &)
+  {
+    copy.close();
+    std::remove(to.c_str());
+    throw;
+  }
   copy.close();
   if (!copy)
   {

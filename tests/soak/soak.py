@@ -12,6 +12,7 @@ exit code is 0 when everything holds.
 
 import argparse
 import csv
+import math
 import os
 import pathlib
 import subprocess
@@ -64,9 +65,10 @@ def run(command, statistics, log):
 
 
 def largest_drift(rows, name):
-    """Largest relative deviation of a column from its first value."""
+    """Largest relative deviation of a column from its first value; infinite where a value is not a number."""
     first = float(rows[0][name])
-    return max(abs(float(row[name]) - first) for row in rows) / abs(first)
+    deviations = [abs(float(row[name]) - first) for row in rows]
+    return max(d if math.isfinite(d) else math.inf for d in deviations) / abs(first)
 
 
 def slope(samples):

@@ -17,7 +17,8 @@ void replace_file(const std::string &path, const std::string &content, bool dura
 
 /**
  * Make sure that @p bytes can be appended to the file @p path (created if missing), and leave that space
- * allocated at its end for whoever writes next.
+ * allocated at its end for whoever writes next. Who truncates the file first gives it back, and knows no more
+ * than that there was room a moment ago.
  *
  * HDF5 does not survive a disk that fills up while it writes: the file is left damaged, and the library
  * crashes when the program ends. So the room is taken before it starts.
