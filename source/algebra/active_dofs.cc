@@ -10,11 +10,12 @@ namespace Gemmule
 {
 using namespace dealii;
 
-void CondensedIndices::gather(const std::vector<double> &solution, double *local) const
+void CondensedIndices::gather(const std::vector<double> &solution, double *local,
+                              const bool homogeneous) const
 {
   for (unsigned int i = 0; i < n_local(); ++i)
   {
-    double value = inhomogeneities[i];
+    double value = homogeneous ? 0. : inhomogeneities[i];
     for (unsigned int k = row_start[i]; k < row_start[i + 1]; ++k)
       value += entries[k].second * solution[indices[entries[k].first]];
     local[i] = value;
@@ -111,7 +112,7 @@ void ActiveDofs<dim>::append(const std::vector<types::global_dof_index> &dofs,
   const auto add_entry = [&](const types::global_dof_index dof, const double weight)
   {
     const int number_of_dof = number(dof);
-    Assert(number_of_dof >= 0, ExcMessage("An element uses a dof that is not active."));
+    AssertThrow(number_of_dof >= 0, ExcMessage("An element uses a dof that is not active."));
     element.entries.emplace_back(element.indices.size(), weight);
     element.indices.push_back(number_of_dof);
   };

@@ -130,7 +130,7 @@ void BoundaryVelocity<dim>::constrain(const Function<dim> &velocity, AffineConst
   {
     const auto &b = boundary_dofs[i];
     if (b.flux_weight != 0.)
-      values[i] -= std::copysign(correction, b.flux_weight);
+      values[i] -= b.flux_weight > 0. ? correction : -correction;
     constraints.add_line(b.dof);
     constraints.set_inhomogeneity(b.dof, values[i]);
   }

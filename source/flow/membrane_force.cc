@@ -57,13 +57,14 @@ void MembraneForce<dim>::add_rhs(const MembraneScalar *tension, const double off
 template <int dim>
 typename MembraneForce<dim>::Velocity
 MembraneForce<dim>::average(const FluidPair &fluids, const std::vector<StokesCellElement> &cut_cell_elements,
-                            const ElementSystem &system, const std::vector<double> &unknowns) const
+                            const ElementSystem &system, const std::vector<double> &unknowns,
+                            const bool homogeneous) const
 {
   Velocity velocity(cut_cell_elements.size());
   std::array<double, 2 * Layout::n> local;
   for (unsigned int k = 0; k < velocity.size(); ++k)
   {
-    system.element(cut_cell_elements[k].element).gather(unknowns, local.data());
+    system.element(cut_cell_elements[k].element).gather(unknowns, local.data(), homogeneous);
     velocity[k].cell_size = geometry->cut_cells()[k].size;
     for (unsigned int i = 0; i < nv; ++i)
       for (unsigned int c = 0; c < dim; ++c)

@@ -101,7 +101,7 @@ void StokesSolver<dim>::solve(const MembraneScalar &tension, const ArclengthPena
                         std::max(-rate_of_unit, 1e-9 * geometry->measure() / capillary_number);
     else
       penalty_tension = lambda * (penalty->excess + dt * rate_without) / (1. - lambda * dt * rate_of_unit);
-    unit_tension_velocity = force.average(fluids, elements, system, unit_flow);
+    unit_tension_velocity = force.average(fluids, elements, system, unit_flow, /*homogeneous =*/true);
     for (std::size_t i = 0; i < unknowns.size(); ++i)
       unknowns[i] += penalty_tension * unit_flow[i];
   }

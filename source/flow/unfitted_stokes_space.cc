@@ -24,6 +24,9 @@ void UnfittedStokesSpace<dim>::reinit_mesh()
   hanging_nodes.clear();
   hanging_nodes.reinit(relevant);
   DoFTools::make_hanging_node_constraints(handler, hanging_nodes);
+  // Of a face between a ghost cell and one that only other ranks know, this rank cannot see that it has
+  // hanging nodes; the ghost penalty uses all dofs of ghost cells.
+  hanging_nodes.make_consistent_in_parallel(handler.locally_owned_dofs(), relevant, communicator());
   hanging_nodes.close();
   boundary_data.reinit(handler, hanging_nodes);
 

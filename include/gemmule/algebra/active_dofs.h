@@ -24,8 +24,8 @@ struct CondensedIndices
 
   unsigned int n_local() const { return row_start.size() - 1; }
 
-  /** u_local from the solution of the reduced system. */
-  void gather(const std::vector<double> &solution, double *local) const;
+  /** u_local from the solution of the reduced system; @p homogeneous: without g. */
+  void gather(const std::vector<double> &solution, double *local, bool homogeneous = false) const;
 
   /** residual += T^T local. */
   void scatter(const double *local, std::vector<double> &residual) const;

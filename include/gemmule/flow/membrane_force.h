@@ -35,9 +35,11 @@ public:
                const std::vector<StokesCellElement> &cut_cell_elements, const ElementSystem &system,
                std::vector<double> &rhs) const;
 
-  /** <u> = w2 u1 + w1 u2 on the locally owned cut cells from the unknowns of the system. */
+  /** <u> = w2 u1 + w1 u2 on the locally owned cut cells from the unknowns of the system; @p homogeneous: of a
+   * solution with zero velocity at the walls. */
   Velocity average(const FluidPair &fluids, const std::vector<StokesCellElement> &cut_cell_elements,
-                   const ElementSystem &system, const std::vector<double> &unknowns) const;
+                   const ElementSystem &system, const std::vector<double> &unknowns,
+                   bool homogeneous = false) const;
 
   /** int (sigma + offset) div_s <u>: this rank's part. With sigma = 0, offset = 1 the rate of change of
    * arclength. */

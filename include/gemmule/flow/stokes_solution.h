@@ -40,7 +40,7 @@ public:
   void interpolate(Vector &values) const;
 
   /** Values of both fluids in the order of StokesLayout, by position in StokesAssembler::cell_elements();
-   * those of a fluid that the cell does not hold are zero. */
+   * those of a fluid that the cell does not hold have no meaning. */
   const std::array<Local, 2> &cell_values(const unsigned int position) const { return local[position]; }
 
 private:
@@ -51,7 +51,7 @@ private:
   const UnfittedStokesSpace<dim> *space = nullptr;
   const CutGeometry<dim> *geometry = nullptr;
   const StokesAssembler<dim> *assembler = nullptr;
-  /** By position in StokesAssembler::cell_elements(), both fluids; unused ones are zero. */
+  /** By position in StokesAssembler::cell_elements(), both fluids; unused ones have no meaning. */
   std::vector<std::array<Local, 2>> local;
 };
 } // namespace Gemmule

@@ -80,7 +80,7 @@ public:
   double viscous_dissipation() const { return bulk.viscous_dissipation(capillary_number); }
   /** Largest speed at the nodes, on the physical side of the membrane. */
   double max_velocity() const { return bulk.max_velocity(); }
-  /** Number of unknowns of the linear system. */
+  /** Number of unknowns of velocity and pressure (bending has more in the same system). */
   unsigned int n_unknowns() const { return space.n_unknowns(); }
   /** Net flux of the boundary data that was removed. */
   double removed_boundary_flux() const { return space.removed_boundary_flux(); }
