@@ -104,6 +104,7 @@ void CoupledSystem<dim>::initialise()
 {
   const InitialMembrane<dim> initial(parameters, communicator);
   initial.make_mesh(triangulation, level_set, geometry, adaptation);
+  // The error of the flow is known once there is a flow: it may ask for another mesh.
   for (unsigned int i = 1;; ++i)
   {
     reinit_mesh();
@@ -117,7 +118,7 @@ void CoupledSystem<dim>::initialise()
     solve_flow(0., parameters.time_stepping.initial_step, nullptr);
     sample_flow();
     if (flow_samples.empty() || i == largest_number_of_initial_meshes ||
-        !initial.make_mesh(triangulation, level_set, geometry, adaptation, flow_samples))
+        !initial.refine_mesh(origin, triangulation, level_set, geometry, adaptation, flow_samples))
       break;
   }
 
@@ -133,6 +134,7 @@ void CoupledSystem<dim>::start_history(const double time)
     for (unsigned int i = 0; i < MembraneFields<dim>::n; ++i)
       at_rest[c].previous_velocity[i] = raise_degree<dim>(get_flow().membrane_velocity()[c].nodal)[i];
   current = take_snapshot(time, at_rest);
+  last_computed_time = time;
   previous = MembraneSnapshot<dim>();
   dt_previous = dt_preceding = 0.;
   resist_negative_tension();
@@ -263,6 +265,12 @@ void CoupledSystem<dim>::cut_mesh(const bool keep_area)
     last_area_correction += shift;
     geometry.reinit(level_set.get_dof_handler(), level_set.values());
   }
+  if (last_area_correction == 0.)
+    return;
+  if (std::abs(geometry.enclosed_volume() - area_0) > 100. * area_tolerance * area_0)
+    throw SimulationError("The enclosed area cannot be made that of the beginning: the step is too long.");
+  check_wall();
+  check_refined_band();
 }
 
 template <int dim>
@@ -360,7 +368,10 @@ StepErrors CoupledSystem<dim>::try_step(const double dt)
   const MembraneProjection<dim> membrane(current.patches, origin);
   MembraneMotion<dim> motion(membrane, dt, dt_previous);
   dt_trial = dt;
-  if (!bending && model.bending().is_active())
+  // Whether there is any is a property of the state, not of its history: a resumed run has to find the same.
+  if (!model.bending().is_active())
+    bending.reset();
+  else if (!bending)
   {
     bending = std::make_unique<MembraneBending<dim>>(triangulation, model.bending());
     bending->reinit_mesh();

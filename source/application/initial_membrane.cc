@@ -155,7 +155,7 @@ std::vector<MembraneSample<dim>> InitialMembrane<dim>::samples(const Point<dim> 
 }
 
 template <int dim>
-bool InitialMembrane<dim>::make_mesh(Triangulation &triangulation, LevelSet<dim> &level_set,
+void InitialMembrane<dim>::make_mesh(Triangulation &triangulation, LevelSet<dim> &level_set,
                                      CutGeometry<dim> &geometry, MeshAdaptation<dim> &adaptation,
                                      const std::vector<CellSample<dim>> &cells) const
 {
@@ -167,7 +167,6 @@ bool InitialMembrane<dim>::make_mesh(Triangulation &triangulation, LevelSet<dim>
   };
   find(triangulation);
   cut_mesh();
-  bool changed = false;
   // Before the criteria refine towards the wall what is wrong anyway.
   check_sign(triangulation, geometry);
   InitialChecks<dim>(parameters).walls(*shape);
@@ -177,11 +176,21 @@ bool InitialMembrane<dim>::make_mesh(Triangulation &triangulation, LevelSet<dim>
     check_expressions(membrane);
     if (!adaptation.adapt(membrane, cells))
       break;
-    changed = true;
     cut_mesh();
   }
   check_wall(triangulation, geometry, adaptation.limited(parameters.mesh.largest_level()));
-  return changed;
+}
+
+template <int dim>
+bool InitialMembrane<dim>::refine_mesh(const Point<dim> &origin, Triangulation &triangulation,
+                                       LevelSet<dim> &level_set, CutGeometry<dim> &geometry,
+                                       MeshAdaptation<dim> &adaptation,
+                                       const std::vector<CellSample<dim>> &cells) const
+{
+  if (!adaptation.adapt(samples(origin, geometry), cells))
+    return false;
+  make_mesh(triangulation, level_set, geometry, adaptation, cells);
+  return true;
 }
 
 template <int dim>

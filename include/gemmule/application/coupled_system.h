@@ -31,7 +31,8 @@ struct RepairReport
  * Membrane, surface phases and flow on the adaptive mesh, and one time step of them (design section 2,
  * "Coupling and time"): the membrane moves with the extrapolated velocity, then the concentrations follow on
  * the new membrane, then tension and Stokes flow. The accepted states are snapshots that do not depend on the
- * mesh; a step that is rejected leaves them untouched.
+ * mesh; a step that is rejected leaves them as they were, but for a finer rule of their points if it has
+ * refined the mesh.
  */
 template <int dim>
 class CoupledSystem
@@ -106,7 +107,7 @@ public:
   double reference_arclength() const { return arclength_0; }
   double area_correction() const { return last_area_correction; }
   unsigned int lowered_levels() const { return adaptation.lowered_levels(); }
-  /** How often the mesh has changed since the start. */
+  /** How often the mesh has changed since the object was made. */
   unsigned int mesh_changes() const { return n_mesh_changes; }
   /** Has the mesh changed within the time levels that the estimated errors of the last try look at? */
   bool mesh_is_new() const { return n_steps_on_mesh < 3; }

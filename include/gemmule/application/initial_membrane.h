@@ -30,11 +30,19 @@ public:
    * Refines the mesh until it satisfies the criteria for the initial membrane and composition.
    * Throws UserError when there is no membrane in the box, or it touches the wall, or a concentration is not
    * finite or not positive on it.
-   * @param cells of the flow on the present mesh, where the flow is known already
-   * @return whether the mesh has changed. Collective.
+   * @param cells of the flow on the present mesh, where the flow is known already. Collective.
    */
-  bool make_mesh(Triangulation &triangulation, LevelSet<dim> &level_set, CutGeometry<dim> &geometry,
+  void make_mesh(Triangulation &triangulation, LevelSet<dim> &level_set, CutGeometry<dim> &geometry,
                  MeshAdaptation<dim> &adaptation, const std::vector<CellSample<dim>> &cells = {}) const;
+
+  /**
+   * Asks the criteria once more, with the flow known. @p origin of the box.
+   * @return whether the mesh has changed; level set and geometry are those of make_mesh() then, and as they
+   * were otherwise. Collective.
+   */
+  bool refine_mesh(const dealii::Point<dim> &origin, Triangulation &triangulation, LevelSet<dim> &level_set,
+                   CutGeometry<dim> &geometry, MeshAdaptation<dim> &adaptation,
+                   const std::vector<CellSample<dim>> &cells) const;
 
   /** Level set := signed distance of the membrane, and its geometry, on a mesh that is final. Collective. */
   void make_level_set(const dealii::Point<dim> &origin, LevelSet<dim> &level_set,
