@@ -1,6 +1,7 @@
 #include <gemmule/geometry/band_level_set.h>
 #include <gemmule/geometry/cell_level_set.h>
 #include <gemmule/geometry/cloud_refinement.h>
+#include <gemmule/geometry/cut_quadrature.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/quadrature_lib.h>
@@ -61,7 +62,7 @@ namespace
     return sizes;
   }
 
-  /** The points of one patch by the rules of its parts of the given size. */
+  /** The points of one patch by the rules of its parts of the given size; none if there are no such rules. */
   template <int dim>
   MembraneCloud<dim> points_of_patch(const MembranePatch<dim> &patch, const unsigned int n_parts)
   {
@@ -87,7 +88,8 @@ namespace
         const double value = Basis::value(patch.level_set, corner + part * Tensor<1, dim>(Basis::node(i)));
         level_set.nodal[i] = (std::abs(value) < 1e-10 * size ? 1e-10 * size : value) / size;
       }
-      generator.generate(level_set, unit_box);
+      if (!generate_cut_quadrature(generator, level_set, unit_box))
+        return MembraneCloud<dim>();
       const auto &surface = generator.get_surface_quadrature();
       for (unsigned int q = 0; q < surface.size(); ++q)
       {

@@ -1,5 +1,6 @@
 #include <gemmule/geometry/cell_level_set.h>
 #include <gemmule/geometry/cut_geometry.h>
+#include <gemmule/geometry/cut_quadrature.h>
 #include <gemmule/parameters/errors.h>
 
 #include <deal.II/base/mpi.h>
@@ -59,45 +60,6 @@ namespace
   private:
     FullMatrix<double> to_bernstein;
   };
-
-  /** Assertions of deal.II throw instead of ending the program, as long as this object lives. */
-  class ThrowingAssertions
-  {
-  public:
-    ThrowingAssertions() { deal_II_exceptions::disable_abort_on_exception(); }
-    ~ThrowingAssertions()
-    {
-      if (aborted_before)
-        deal_II_exceptions::enable_abort_on_exception();
-    }
-    ThrowingAssertions(const ThrowingAssertions &) = delete;
-    ThrowingAssertions &operator=(const ThrowingAssertions &) = delete;
-
-  private:
-    const bool aborted_before = deal_II_exceptions::internals::allow_abort_on_exception;
-  };
-
-  /**
-   * Where a membrane is torn, the generator may find more roots on a line than it expects. Its debug version
-   * asserts that, the other one goes on with a rule that is worse. A trial step of a user is no case for an
-   * abort.
-   * @return false if an assertion failed
-   */
-  template <int dim>
-  bool generate(NonMatching::QuadratureGenerator<dim> &generator, const CellLevelSet<dim> &level_set,
-                const BoundingBox<dim> &unit_box)
-  {
-    const ThrowingAssertions throwing_assertions;
-    try
-    {
-      generator.generate(level_set, unit_box);
-      return true;
-    }
-    catch (const ExceptionBase &)
-    {
-      return false;
-    }
-  }
 } // namespace
 
 template <int dim>
@@ -155,7 +117,7 @@ void CutGeometry<dim>::reinit(const DoFHandler<dim> &dof_handler, const Vector &
       const auto nodal = cell_level_set.nodal;
       for (auto &value : cell_level_set.nodal)
         value /= h;
-      if (!generate(generator, cell_level_set, unit_box))
+      if (!generate_cut_quadrature(generator, cell_level_set, unit_box))
       {
         is_resolved = false; // the other ranks have to know before anything is thrown
         continue;

@@ -21,9 +21,9 @@ Point<dim> CellLocator<dim>::Cell::unit(const Point<dim> &x) const
 template <int dim>
 void CellLocator<dim>::reinit(const Triangulation<dim> &triangulation)
 {
-  AssertThrow(
-      triangulation.n_global_levels() <= finest_level + 1,
-      ExcMessage("The mesh has more than 16 levels of refinement; lower the levels in section \"Mesh\"."));
+  AssertThrow(triangulation.n_global_levels() <= finest_level + 1,
+              ExcMessage("The mesh has more than " + std::to_string(finest_level) +
+                         " levels of refinement; lower the levels in section \"Mesh\"."));
 
   // The coarse mesh is the same on every rank, and so are all decisions derived from it.
   Point<dim> upper;

@@ -49,7 +49,8 @@ private:
   bool integer_coordinates(const dealii::Point<dim> &x, Coordinates &i) const;
   static std::uint64_t key(const Coordinates &i, unsigned int shift);
 
-  static constexpr unsigned int finest_level = 16;
+  // A key has 32 bits per coordinate in 2D and 21 in 3D, of which the coarse cells take the rest.
+  static constexpr unsigned int finest_level = dim == 2 ? 20 : 16;
   dealii::Point<dim> origin;
   double finest_size = 1.;
   double smallest = 1.;

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <gemmule/geometry/cell_level_set.h>
+
+#include <deal.II/base/bounding_box.h>
+#include <deal.II/non_matching/quadrature_generator.h>
+
+namespace Gemmule
+{
+/**
+ * Makes the rules of a unit cell that the level set cuts.
+ *
+ * Where a membrane is torn, the generator may find more roots on a line than it expects. deal.II's debug
+ * library asserts that, the other one goes on with a rule that is worse. A trial step of a user is no case
+ * for an abort.
+ *
+ * @return false if an assertion failed; the generator has no rules then
+ */
+template <int dim>
+bool generate_cut_quadrature(dealii::NonMatching::QuadratureGenerator<dim> &generator,
+                             const CellLevelSet<dim> &level_set, const dealii::BoundingBox<dim> &unit_box);
+} // namespace Gemmule
