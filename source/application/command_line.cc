@@ -89,7 +89,9 @@ CommandLine CommandLine::parse(const int argc, const char *const *argv)
   app.add_option("--output", directory, "Directory for the results, instead of the one that the file names")
       ->type_name("DIR");
   app.add_flag("--resume", result.resume, "Continue from the last good checkpoint in the output directory");
-  app.add_flag("--check", result.check, "Check the parameters, then exit");
+  app.add_flag(
+      "--check", result.check,
+      "Check the parameters, the initial mesh and membrane and the first flow, write nothing, then exit");
   app.add_flag(
       "--print-parameters", result.print_parameters,
       "Print every parameter with description and value as a parameter file, then exit; without CASE.prm: "

@@ -44,10 +44,11 @@ void Surface::add_parameters(dealii::ParameterHandler &prm)
       "rho in (rho/h) (n.grad f)(n.grad v) on the band of cells around the membrane, which extends the "
       "surface fields along the normals (dimensionless). Source: Lehrenfeld, Olshanskii, Xu (2018).",
       Range::positive());
-  section.add("Newton tolerance", newton_tolerance,
-              "Newton's method for the phases stops when the norm of the residual has fallen by this factor "
-              "(dimensionless).",
-              Range{0., 0.1, true});
+  section.add(
+      "Newton tolerance", newton_tolerance,
+      "Newton's method for the phases stops when linearising the chemical potential's local part anew "
+      "changes it by less than this part of its largest value (dimensionless).",
+      Range{0., 0.1, true});
   section.add("Largest number of Newton iterations", newton_maximum_iterations,
               "A time step that needs more iterations is repeated with a smaller step.",
               Range::between(1, 1000));

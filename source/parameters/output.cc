@@ -8,15 +8,15 @@ namespace Gemmule::Parameters
 void Output::add_parameters(dealii::ParameterHandler &prm)
 {
   Section section(prm, {"Output"});
-  section.add(
-      "Field output interval", field_interval,
-      "Simulated time between two outputs of velocity and pressure in the box (dimensionless time); 0 writes "
-      "none.",
-      Range::non_negative());
+  section.add("Field output interval", field_interval,
+              "Simulated time between two outputs of velocity and pressure in the box (dimensionless time); "
+              "0: only at "
+              "'Output times'.",
+              Range::non_negative());
   section.add(
       "Interface output interval", interface_interval,
-      "Simulated time between two outputs of the membrane and its fields (dimensionless time); 0 writes "
-      "none.",
+      "Simulated time between two outputs of the membrane and its fields (dimensionless time); 0: only at "
+      "'Output times' and at the end.",
       Range::non_negative());
   section.add("Output times", output_times,
               "More times at which both are written (dimensionless time); the time steps hit them exactly.",
