@@ -4,6 +4,7 @@
 #include <deal.II/dofs/dof_tools.h>
 #include <deal.II/fe/fe_q.h>
 
+#include <algorithm>
 #include <limits>
 
 namespace Gemmule
@@ -20,14 +21,7 @@ template <int dim>
 void UnfittedStokesSpace<dim>::reinit_mesh()
 {
   handler.distribute_dofs(element);
-  DoFTools::extract_locally_relevant_dofs(handler, relevant);
-  hanging_nodes.clear();
-  hanging_nodes.reinit(relevant);
-  DoFTools::make_hanging_node_constraints(handler, hanging_nodes);
-  // Of a face between a ghost cell and one that only other ranks know, this rank cannot see that it has
-  // hanging nodes; the ghost penalty uses all dofs of ghost cells.
-  hanging_nodes.make_consistent_in_parallel(handler.locally_owned_dofs(), relevant, communicator());
-  hanging_nodes.close();
+  constrain_hanging_nodes();
   boundary_data.reinit(handler, hanging_nodes);
 
   const unsigned int n_cells = triangulation.n_active_cells();
@@ -122,6 +116,34 @@ void UnfittedStokesSpace<dim>::find_corner()
 }
 
 template <int dim>
+void UnfittedStokesSpace<dim>::constrain_hanging_nodes()
+{
+  // Of a face between a ghost cell and one that only other ranks know, this rank cannot see that it has
+  // hanging nodes, and the ghost penalty uses all dofs of ghost cells. So the ranks exchange the constraints
+  // of the dofs that they use, and then those of the masters, until all are known.
+  IndexSet used;
+  DoFTools::extract_locally_relevant_dofs(handler, used);
+  for (bool is_complete = false; !is_complete;)
+  {
+    hanging_nodes.clear();
+    hanging_nodes.reinit(complete_index_set(handler.n_dofs()));
+    DoFTools::make_hanging_node_constraints(handler, hanging_nodes);
+    hanging_nodes.make_consistent_in_parallel(handler.locally_owned_dofs(), used, communicator());
+    std::vector<types::global_dof_index> masters;
+    for (const auto &line : hanging_nodes.get_lines())
+      for (const auto &entry : line.entries)
+        if (!used.is_element(entry.first))
+          masters.push_back(entry.first);
+    is_complete = Utilities::MPI::max(masters.empty() ? 0 : 1, communicator()) == 0;
+    std::sort(masters.begin(), masters.end());
+    masters.erase(std::unique(masters.begin(), masters.end()), masters.end());
+    used.add_indices(masters.begin(), masters.end());
+    used.compress();
+  }
+  hanging_nodes.close();
+}
+
+template <int dim>
 void UnfittedStokesSpace<dim>::reinit(const CutGeometry<dim> &geometry,
                                       const Function<dim> &boundary_velocity)
 {
@@ -141,7 +163,7 @@ void UnfittedStokesSpace<dim>::reinit(const CutGeometry<dim> &geometry,
         "Choose a larger box.");
 
   outside_constraints.clear();
-  outside_constraints.reinit(relevant);
+  outside_constraints.reinit(hanging_nodes.get_local_lines());
   outside_constraints.merge(hanging_nodes);
   boundary_data.constrain(boundary_velocity, outside_constraints);
   if (corner_pressure != numbers::invalid_dof_index)

@@ -77,13 +77,14 @@ public:
   MPI_Comm communicator() const { return handler.get_communicator(); }
 
 private:
+  /** On all ranks the same constraint of a dof. Collective. */
+  void constrain_hanging_nodes();
   void find_faces();
   void find_corner();
 
   const dealii::parallel::distributed::Triangulation<dim> &triangulation;
   dealii::FESystem<dim> element;
   dealii::DoFHandler<dim> handler;
-  dealii::IndexSet relevant;
   dealii::AffineConstraints<double> hanging_nodes;
   dealii::AffineConstraints<double> outside_constraints;
   std::array<ActiveDofs<dim>, 2> active;
