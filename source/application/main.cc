@@ -66,13 +66,12 @@ int run_on_all(const std::function<int()> &action, const MPI_Comm communicator)
   const unsigned int rank = dealii::Utilities::MPI::this_mpi_process(communicator);
   const unsigned int n_ranks = dealii::Utilities::MPI::n_mpi_processes(communicator);
   // One that has succeeded can wait for the others as long as it takes.
-  if (!message.empty() && !all_processes_arrive(communicator))
+  const double patience = message.empty() ? std::numeric_limits<double>::infinity() : 10.;
+  if (!all_processes_arrive(communicator, patience))
   {
     std::cerr << "gemmule: error: process " << rank << ": " << Parameters::printable(message) << std::endl;
     MPI_Abort(MPI_COMM_WORLD, code);
   }
-  if (message.empty())
-    all_processes_arrive(communicator, std::numeric_limits<double>::infinity());
   const unsigned int speaker = dealii::Utilities::MPI::min(message.empty() ? n_ranks : rank, communicator);
   if (rank == speaker)
     std::cerr << "gemmule: error: " << Parameters::printable(message) << std::endl;

@@ -47,6 +47,23 @@ InterfaceSamples<2> circle(const double time, const double radius, const unsigne
   return samples;
 }
 
+/** A number on each cell of a small mesh, ready to be written. */
+struct CellData
+{
+  CellData() : triangulation(MPI_COMM_WORLD)
+  {
+    dealii::GridGenerator::hyper_cube(triangulation, -1., 1.);
+    triangulation.refine_global(2);
+    data.attach_triangulation(triangulation);
+    values.reinit(triangulation.n_active_cells());
+    data.add_data_vector(values, "level", dealii::DataOut<2>::type_cell_data);
+    data.build_patches();
+  }
+
+  dealii::parallel::distributed::Triangulation<2> triangulation;
+  dealii::Vector<float> values;
+  dealii::DataOut<2> data;
+};
 } // namespace
 
 TEST_F(OutputTest, InterfaceIsReadBack)
@@ -205,14 +222,8 @@ TEST_F(ParallelOutputTest, FieldsAreReadBackAndResumed)
 
 TEST_F(ParallelOutputTest, FieldsThatAreDamagedOrMissingCostNoOther)
 {
-  dealii::parallel::distributed::Triangulation<2> triangulation(MPI_COMM_WORLD);
-  dealii::GridGenerator::hyper_cube(triangulation, -1., 1.);
-  triangulation.refine_global(2);
-  dealii::DataOut<2> data;
-  data.attach_triangulation(triangulation);
-  dealii::Vector<float> values(triangulation.n_active_cells());
-  data.add_data_vector(values, "level", dealii::DataOut<2>::type_cell_data);
-  data.build_patches();
+  const CellData cells;
+  const dealii::DataOut<2> &data = cells.data;
   {
     FieldWriter<2> writer(directory, MPI_COMM_WORLD, Provenance());
     for (const double time : {0., 0.25, 0.5, 0.75, 1.})
@@ -246,14 +257,8 @@ TEST_F(ParallelOutputTest, FieldsThatAreDamagedOrMissingCostNoOther)
 
 TEST_F(ParallelOutputTest, FieldsThatCannotBeWrittenFailOnAllRanks)
 {
-  dealii::parallel::distributed::Triangulation<2> triangulation(MPI_COMM_WORLD);
-  dealii::GridGenerator::hyper_cube(triangulation, -1., 1.);
-  triangulation.refine_global(2);
-  dealii::DataOut<2> data;
-  data.attach_triangulation(triangulation);
-  dealii::Vector<float> values(triangulation.n_active_cells());
-  data.add_data_vector(values, "level", dealii::DataOut<2>::type_cell_data);
-  data.build_patches();
+  const CellData cells;
+  const dealii::DataOut<2> &data = cells.data;
   FieldWriter<2> writer(path("missing"), MPI_COMM_WORLD, Provenance());
   const std::string message = message_of([&]() { writer.write(data, 0.); });
   EXPECT_NE(message.find("missing/solution-00000.h5"), std::string::npos) << message;
