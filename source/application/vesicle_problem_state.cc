@@ -4,7 +4,6 @@
 #include <gemmule/application/vesicle_problem.h>
 #include <gemmule/output/field_output.h>
 #include <gemmule/parameters/errors.h>
-#include <gemmule/parameters/text.h>
 #include <gemmule/time/step_control.h>
 
 namespace Gemmule
@@ -14,11 +13,6 @@ using namespace dealii;
 namespace
 {
   constexpr int exit_code_stopped = 3;
-
-  std::string rounded(const double x)
-  {
-    return Parameters::short_number(x, 4);
-  }
 } // namespace
 
 template <int dim>

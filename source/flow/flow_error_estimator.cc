@@ -95,6 +95,121 @@ namespace
     }
     return values;
   }
+
+  /** Nodal values of all owned and ghost cells by active_cell_index, and the viscosities of the fluids. */
+  template <int dim>
+  struct Flow
+  {
+    std::vector<Both<dim>> values;
+    std::array<double, 2> viscosity;
+  };
+
+  struct CellShare
+  {
+    double error = 0.;       ///< residual, divergence and jump of the velocity at the membrane
+    double norm_square = 0.; ///< of the flow, in the energy norm
+  };
+
+  template <int dim>
+  CellShare cell_share(const Flow<dim> &flow, const CutGeometry<dim> &geometry, const unsigned int index,
+                       const double h)
+  {
+    using Layout = StokesLayout<dim>;
+    static const QGauss<dim> quadrature(3);
+    const auto &viscosity = flow.viscosity;
+    const Both<dim> &values = flow.values[index];
+    CellShare share;
+    const auto add = [&](const unsigned int fluid, const Point<dim> &p, const double weight)
+    {
+      const double eta = viscosity[fluid];
+      const auto u = derivatives<dim>(values[fluid], p);
+      const Tensor<1, dim> residual =
+          eta / (h * h) * (u.laplacian + u.gradient_of_div) - u.pressure_gradient / h;
+      const double divergence = trace(u.gradient) / h;
+      share.error += weight * (h * h / (4. * eta) * residual.norm_square() + eta * divergence * divergence);
+      share.norm_square +=
+          weight * eta / (h * h) *
+          (scalar_product(u.gradient, u.gradient) + scalar_product(u.gradient, transpose(u.gradient)));
+    };
+    if (geometry.location(index) != CellLocation::cut)
+    {
+      const unsigned int fluid = geometry.location(index) == CellLocation::inside ? 0 : 1;
+      for (unsigned int q = 0; q < quadrature.size(); ++q)
+        add(fluid, quadrature.point(q), quadrature.weight(q) * std::pow(h, dim));
+      return share;
+    }
+
+    const CutCell<dim> &cut = *geometry.find(index);
+    for (unsigned int fluid = 0; fluid < 2; ++fluid)
+      for (unsigned int q = 0; q < cut.bulk_points[fluid].size(); ++q)
+        add(fluid, cut.bulk_points[fluid][q], cut.bulk_weights[fluid][q]);
+    const double eta = 2. * viscosity[0] * viscosity[1] / (viscosity[0] + viscosity[1]);
+    typename Layout::VelocityBasis::Values phi;
+    for (unsigned int q = 0; q < cut.surface_points.size(); ++q)
+    {
+      Layout::VelocityBasis::evaluate(cut.surface_points[q], phi);
+      for (unsigned int c = 0; c < dim; ++c)
+      {
+        double jump = 0.;
+        for (unsigned int i = 0; i < phi.size(); ++i)
+          jump += phi[i] * (values[1][Layout::velocity(c, i)] - values[0][Layout::velocity(c, i)]);
+        share.error += cut.surface_weights[q] * eta / h * jump * jump;
+      }
+    }
+    return share;
+  }
+
+  /** A point of a face in the unit coordinates of both cells. */
+  template <int dim>
+  std::array<Point<dim>, 2> on_both_sides(const InteriorFace &face, const Point<dim - 1> &point)
+  {
+    const unsigned int direction = face.face_number / 2, side = face.face_number % 2;
+    std::array<Point<dim>, 2> p;
+    for (unsigned int d = 0, t = 0; d < dim; ++d)
+      if (d == direction)
+      {
+        p[0][d] = side;
+        p[1][d] = 1. - side;
+      }
+      else
+      {
+        p[0][d] = p[1][d] = point[t];
+        if (face.refinement > 0)
+          p[1][d] = 0.5 * (p[0][d] + (((face.refinement - 1) >> t) & 1));
+        ++t;
+      }
+    return p;
+  }
+
+  /** Jump of the traction across the face between cells of sizes @p h and @p h_second. */
+  template <int dim>
+  double face_share(const Flow<dim> &flow, const CutGeometry<dim> &geometry, const InteriorFace &face,
+                    const double h, const double h_second)
+  {
+    static const QGauss<dim - 1> quadrature(4);
+    const unsigned int direction = face.face_number / 2;
+    const auto first = geometry.location(face.first), second = geometry.location(face.second);
+    // Of two cut cells at least one is owned, and knows on which side of the membrane a point of the face is.
+    const CutCell<dim> *cut = nullptr;
+    if (first == CellLocation::cut && second == CellLocation::cut)
+      cut = geometry.find(face.first) != nullptr ? geometry.find(face.first) : geometry.find(face.second);
+    double integral = 0.;
+    for (unsigned int q = 0; q < quadrature.size(); ++q)
+    {
+      const auto p = on_both_sides<dim>(face, quadrature.point(q));
+      unsigned int fluid =
+          first == CellLocation::cut ? second == CellLocation::outside : first == CellLocation::outside;
+      if (cut != nullptr)
+        fluid = CutCell<dim>::LevelSetBasis::value(cut->level_set,
+                                                   p[cut->active_cell_index == face.first ? 0 : 1]) >= 0.;
+      const double eta = flow.viscosity[fluid];
+      const Tensor<1, dim> jump =
+          traction(derivatives<dim>(flow.values[face.first][fluid], p[0]), eta, h, direction) -
+          traction(derivatives<dim>(flow.values[face.second][fluid], p[1]), eta, h_second, direction);
+      integral += quadrature.weight(q) * std::pow(h, dim - 1) * h / (4. * eta) * jump.norm_square();
+    }
+    return integral;
+  }
 } // namespace
 
 template <int dim>
@@ -102,10 +217,7 @@ FlowErrorEstimate
 FlowErrorEstimator<dim>::estimate(const UnfittedStokesSpace<dim> &space, const CutGeometry<dim> &geometry,
                                   const StokesAssembler<dim> &assembler, const StokesSolution<dim> &solution)
 {
-  const auto &viscosity = assembler.fluids().viscosity;
   const auto &triangulation = space.mesh();
-  const auto values = values_with_ghosts(space, assembler, solution);
-
   // Shares by global number of the cell: faces between ranks add to cells of both.
   LinearAlgebra::distributed::Vector<double> shares(
       triangulation.global_active_cell_index_partitioner().lock());
@@ -114,93 +226,18 @@ FlowErrorEstimator<dim>::estimate(const UnfittedStokesSpace<dim> &space, const C
     if (!cell->is_artificial())
       number[cell->active_cell_index()] = cell->global_active_cell_index();
 
-  const QGauss<dim> cell_quadrature(3);
+  const Flow<dim> flow{values_with_ghosts(space, assembler, solution), assembler.fluids().viscosity};
   double norm_square = 0.;
   for (const unsigned int index : space.owned_cells())
   {
-    const double h = space.cell_size(index);
-    double share = 0.;
-    const auto add = [&](const unsigned int fluid, const Point<dim> &p, const double weight)
-    {
-      const double eta = viscosity[fluid];
-      const auto flow = derivatives<dim>(values[index][fluid], p);
-      const Tensor<1, dim> residual =
-          eta / (h * h) * (flow.laplacian + flow.gradient_of_div) - flow.pressure_gradient / h;
-      const double divergence = trace(flow.gradient) / h;
-      share += weight * (h * h / (4. * eta) * residual.norm_square() + eta * divergence * divergence);
-      norm_square += weight * eta / (h * h) *
-                     (scalar_product(flow.gradient, flow.gradient) +
-                      scalar_product(flow.gradient, transpose(flow.gradient)));
-    };
-    if (geometry.location(index) == CellLocation::cut)
-    {
-      const CutCell<dim> &cut = *geometry.find(index);
-      for (unsigned int fluid = 0; fluid < 2; ++fluid)
-        for (unsigned int q = 0; q < cut.bulk_points[fluid].size(); ++q)
-          add(fluid, cut.bulk_points[fluid][q], cut.bulk_weights[fluid][q]);
-      const double eta = 2. * viscosity[0] * viscosity[1] / (viscosity[0] + viscosity[1]);
-      typename Layout::VelocityBasis::Values phi;
-      for (unsigned int q = 0; q < cut.surface_points.size(); ++q)
-      {
-        Layout::VelocityBasis::evaluate(cut.surface_points[q], phi);
-        for (unsigned int c = 0; c < dim; ++c)
-        {
-          double jump = 0.;
-          for (unsigned int i = 0; i < phi.size(); ++i)
-            jump += phi[i] *
-                    (values[index][1][Layout::velocity(c, i)] - values[index][0][Layout::velocity(c, i)]);
-          share += cut.surface_weights[q] * eta / h * jump * jump;
-        }
-      }
-    }
-    else
-    {
-      const unsigned int fluid = geometry.location(index) == CellLocation::inside ? 0 : 1;
-      for (unsigned int q = 0; q < cell_quadrature.size(); ++q)
-        add(fluid, cell_quadrature.point(q), cell_quadrature.weight(q) * std::pow(h, dim));
-    }
-    shares(number[index]) += share;
+    const CellShare share = cell_share(flow, geometry, index, space.cell_size(index));
+    shares(number[index]) += share.error;
+    norm_square += share.norm_square;
   }
-
-  const QGauss<dim - 1> face_quadrature(4);
   for (const InteriorFace &face : space.interior_faces())
   {
-    const unsigned int direction = face.face_number / 2, side = face.face_number % 2;
-    const double h = space.cell_size(face.first), h_second = space.cell_size(face.second);
-    const auto first = geometry.location(face.first), second = geometry.location(face.second);
-    // Of two cut cells at least one is owned, and knows on which side of the membrane a point of the face is.
-    const CutCell<dim> *cut = nullptr;
-    if (first == CellLocation::cut && second == CellLocation::cut)
-      cut = geometry.find(face.first) != nullptr ? geometry.find(face.first) : geometry.find(face.second);
-    double integral = 0.;
-    for (unsigned int q = 0; q < face_quadrature.size(); ++q)
-    {
-      Point<dim> p, p_second;
-      for (unsigned int d = 0, t = 0; d < dim; ++d)
-        if (d == direction)
-        {
-          p[d] = side;
-          p_second[d] = 1. - side;
-        }
-        else
-        {
-          p[d] = p_second[d] = face_quadrature.point(q)[t];
-          if (face.refinement > 0)
-            p_second[d] = 0.5 * (p[d] + (((face.refinement - 1) >> t) & 1));
-          ++t;
-        }
-      unsigned int fluid =
-          first == CellLocation::cut ? second == CellLocation::outside : first == CellLocation::outside;
-      if (cut != nullptr)
-        fluid = CutCell<dim>::LevelSetBasis::value(cut->level_set,
-                                                   cut->active_cell_index == face.first ? p : p_second) >= 0.;
-      const Tensor<1, dim> jump =
-          traction(derivatives<dim>(values[face.first][fluid], p), viscosity[fluid], h, direction) -
-          traction(derivatives<dim>(values[face.second][fluid], p_second), viscosity[fluid], h_second,
-                   direction);
-      integral +=
-          face_quadrature.weight(q) * std::pow(h, dim - 1) * h / (4. * viscosity[fluid]) * jump.norm_square();
-    }
+    const double integral =
+        face_share(flow, geometry, face, space.cell_size(face.first), space.cell_size(face.second));
     shares(number[face.first]) += 0.5 * integral;
     shares(number[face.second]) += 0.5 * integral;
   }

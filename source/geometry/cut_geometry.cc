@@ -60,6 +60,46 @@ namespace
   private:
     FullMatrix<double> to_bernstein;
   };
+
+  template <int dim>
+  BoundingBox<dim> unit_box()
+  {
+    Point<dim> one;
+    for (unsigned int d = 0; d < dim; ++d)
+      one[d] = 1.;
+    return BoundingBox<dim>(std::make_pair(Point<dim>(), one));
+  }
+
+  /** The cell with the rules of @p generator, which are for the cell of size one, as is @p unit_level_set. */
+  template <int dim>
+  CutCell<dim> make_cut_cell(const typename DoFHandler<dim>::active_cell_iterator &cell,
+                             const CellLevelSet<dim> &unit_level_set,
+                             const NonMatching::QuadratureGenerator<dim> &generator)
+  {
+    const double h = cell->extent_in_direction(0);
+    const auto &inside = generator.get_inside_quadrature();
+    const auto &outside = generator.get_outside_quadrature();
+    const auto &surface = generator.get_surface_quadrature();
+    CutCell<dim> cut;
+    cut.active_cell_index = cell->active_cell_index();
+    cut.corner = cell->vertex(0);
+    cut.size = h;
+    cut.bulk_points = {{inside.get_points(), outside.get_points()}};
+    cut.bulk_weights = {{inside.get_weights(), outside.get_weights()}};
+    for (auto &weights : cut.bulk_weights)
+      for (double &weight : weights)
+        weight *= std::pow(h, dim);
+    cut.surface_points = surface.get_points();
+    cut.surface_weights = surface.get_weights();
+    for (double &weight : cut.surface_weights)
+      weight *= std::pow(h, dim - 1);
+    for (const Point<dim> &point : cut.surface_points)
+    {
+      const auto gradient = unit_level_set.gradient(point);
+      cut.normals.push_back(gradient / gradient.norm());
+    }
+    return cut;
+  }
 } // namespace
 
 template <int dim>
@@ -79,14 +119,7 @@ void CutGeometry<dim>::reinit(const DoFHandler<dim> &dof_handler, const Vector &
   const auto node_to_dof = lexicographic_cell_dofs(dof_handler.get_fe());
   const hp::QCollection<1> gauss{QGauss<1>(n_gauss_points)};
   NonMatching::QuadratureGenerator<dim> generator(gauss);
-  BoundingBox<dim> unit_box(std::make_pair(Point<dim>(),
-                                           []
-                                           {
-                                             Point<dim> one;
-                                             for (unsigned int d = 0; d < dim; ++d)
-                                               one[d] = 1.;
-                                             return one;
-                                           }()));
+  const BoundingBox<dim> box = unit_box<dim>();
 
   CellLevelSet<dim> cell_level_set;
   std::vector<types::global_dof_index> dofs(dof_handler.get_fe().n_dofs_per_cell());
@@ -117,47 +150,27 @@ void CutGeometry<dim>::reinit(const DoFHandler<dim> &dof_handler, const Vector &
       const auto nodal = cell_level_set.nodal;
       for (auto &value : cell_level_set.nodal)
         value /= h;
-      if (!generate_cut_quadrature(generator, cell_level_set, unit_box))
+      if (!generate_cut_quadrature(generator, cell_level_set, box))
       {
         is_resolved = false; // the other ranks have to know before anything is thrown
         continue;
       }
-      const auto &inside = generator.get_inside_quadrature();
-      const auto &outside = generator.get_outside_quadrature();
-      const auto &surface = generator.get_surface_quadrature();
-      if (surface.size() == 0)
-        locations[index] = inside.size() > 0 ? CellLocation::inside : CellLocation::outside;
+      if (generator.get_surface_quadrature().size() == 0)
+        locations[index] =
+            generator.get_inside_quadrature().size() > 0 ? CellLocation::inside : CellLocation::outside;
       else
       {
         locations[index] = CellLocation::cut;
         if (cell->is_locally_owned())
         {
-          CutCell<dim> cut;
-          cut.active_cell_index = index;
-          cut.corner = cell->vertex(0);
-          cut.size = h;
+          cut_cell_of[index] = cells.size();
+          cells.push_back(make_cut_cell<dim>(cell, cell_level_set, generator));
+          CutCell<dim> &cut = cells.back();
           cut.level_set = nodal;
-          const double volume_scale = std::pow(h, dim), surface_scale = std::pow(h, dim - 1);
-          cut.bulk_points[0] = inside.get_points();
-          cut.bulk_points[1] = outside.get_points();
-          cut.bulk_weights[0] = inside.get_weights();
-          cut.bulk_weights[1] = outside.get_weights();
-          for (auto &weights : cut.bulk_weights)
-            for (double &weight : weights)
-              weight *= volume_scale;
-          cut.surface_points = surface.get_points();
-          cut.surface_weights = surface.get_weights();
-          for (unsigned int q = 0; q < surface.size(); ++q)
-          {
-            cut.surface_weights[q] *= surface_scale;
-            local_measure += cut.surface_weights[q];
-            const auto gradient = cell_level_set.gradient(surface.point(q));
-            cut.normals.push_back(gradient / gradient.norm());
-          }
+          for (const double weight : cut.surface_weights)
+            local_measure += weight;
           for (const double weight : cut.bulk_weights[0])
             local_volume += weight;
-          cut_cell_of[index] = cells.size();
-          cells.push_back(std::move(cut));
         }
       }
     }

@@ -36,6 +36,50 @@ namespace
         return false;
     return true;
   }
+
+  /** Moves a point of the cell along the gradient onto the membrane. @return whether it stays in the cell. */
+  template <int dim>
+  bool move_onto_membrane(const MembranePatch<dim> &patch, Point<dim> &y)
+  {
+    for (unsigned int iteration = 0; iteration < 8; ++iteration)
+    {
+      const auto phi = local_level_set(patch, y);
+      const double norm_square = phi.gradient.norm_square();
+      if (norm_square < 1e-20)
+        return false;
+      const Tensor<1, dim> step = -phi.value / norm_square * phi.gradient;
+      if (step.norm() > 1.)
+        return false;
+      y += step;
+      if (step.norm() < 1e-8)
+        return in_unit_cell(y, 1e-3);
+    }
+    return false;
+  }
+
+  /**
+   * Newton's step for the point y of the zero level and the multiplier of (y - target) + multiplier grad phi
+   * = 0. @return whether that leads to a minimum of the distance: the matrix has to be positive definite on
+   * the tangent space.
+   */
+  template <int dim>
+  bool newton_step(const PolynomialValue<dim> &phi, const Tensor<1, dim> &difference, const double multiplier,
+                   Tensor<1, dim> &step, double &multiplier_step)
+  {
+    const Tensor<1, dim> residual = multiplier * phi.gradient - difference;
+    Tensor<2, dim> matrix = multiplier * phi.hessian;
+    for (unsigned int d = 0; d < dim; ++d)
+      matrix[d][d] += 1.;
+    if (!(determinant(matrix) > 0.05))
+      return false;
+    const Tensor<2, dim> inverse = invert(matrix);
+    const double denominator = phi.gradient * (inverse * phi.gradient);
+    if (!(denominator > 1e-3 * phi.gradient.norm_square()))
+      return false;
+    multiplier_step = (phi.value - phi.gradient * (inverse * residual)) / denominator;
+    step = -(inverse * (residual + multiplier_step * phi.gradient));
+    return true;
+  }
 } // namespace
 
 template <int dim>
@@ -58,29 +102,11 @@ MembraneProjection<dim>::MembraneProjection(const std::vector<MembranePatch<dim>
     for (unsigned int i = 0; i < TensorLagrange<dim, 3>::n; ++i)
     {
       Point<dim> y = TensorLagrange<dim, 3>::node(i);
-      bool good = false;
-      for (unsigned int iteration = 0; iteration < 8; ++iteration)
-      {
-        const auto phi = local_level_set(patch, y);
-        const double norm_square = phi.gradient.norm_square();
-        if (norm_square < 1e-20)
-          break;
-        const Tensor<1, dim> step = -phi.value / norm_square * phi.gradient;
-        if (step.norm() > 1.)
-          break;
-        y += step;
-        if (step.norm() < 1e-8)
-        {
-          good = in_unit_cell(y, 1e-3);
-          break;
-        }
-      }
-      if (good)
-      {
-        const auto phi = local_level_set(patch, y);
-        all_samples.push_back(
-            {patch.corner + patch.size * Tensor<1, dim>(y), phi.gradient / phi.gradient.norm(), y, p});
-      }
+      if (!move_onto_membrane(patch, y))
+        continue;
+      const auto phi = local_level_set(patch, y);
+      all_samples.push_back(
+          {patch.corner + patch.size * Tensor<1, dim>(y), phi.gradient / phi.gradient.norm(), y, p});
     }
     if (all_samples.size() > first)
       primary_samples.push_back(first);
@@ -165,34 +191,15 @@ ClosestPoint<dim> MembraneProjection<dim>::newton(const Point<dim> &x, unsigned 
     const double norm_square = phi.gradient.norm_square();
     if (norm_square < 1e-12)
       return result;
+    const Tensor<1, dim> difference = target - y;
     if (!known_multiplier)
-    {
-      multiplier = ((target - y) * phi.gradient) / norm_square;
-      known_multiplier = true;
-    }
-    const Tensor<1, dim> residual = y - target + multiplier * phi.gradient;
-    Tensor<2, dim> matrix = multiplier * phi.hessian;
-    for (unsigned int d = 0; d < dim; ++d)
-      matrix[d][d] += 1.;
+      multiplier = (difference * phi.gradient) / norm_square;
+    known_multiplier = true;
     Tensor<1, dim> step;
     double multiplier_step = 0.;
-    // Positive definite on the tangent space means a minimum of the distance; otherwise fall back to moving
-    // along the gradient and the tangent plane in turn.
-    bool usable = determinant(matrix) > 0.05;
-    if (usable)
+    if (!newton_step(phi, difference, multiplier, step, multiplier_step))
     {
-      const Tensor<2, dim> inverse = invert(matrix);
-      const double denominator = phi.gradient * (inverse * phi.gradient);
-      usable = denominator > 1e-3 * norm_square;
-      if (usable)
-      {
-        multiplier_step = (phi.value - phi.gradient * (inverse * residual)) / denominator;
-        step = -(inverse * (residual + multiplier_step * phi.gradient));
-      }
-    }
-    if (!usable)
-    {
-      const Tensor<1, dim> difference = target - y;
+      // Along the gradient and the tangent plane in turn.
       step = -phi.value / norm_square * phi.gradient +
              0.5 * (difference - (difference * phi.gradient) / norm_square * phi.gradient);
       known_multiplier = false;
@@ -228,8 +235,8 @@ ClosestPoint<dim> MembraneProjection<dim>::newton(const Point<dim> &x, unsigned 
       result.unit_point = y;
       result.point = patches[p].corner + patches[p].size * Tensor<1, dim>(y);
       result.normal = final.gradient / final.gradient.norm();
-      const Tensor<1, dim> difference = x - result.point;
-      result.distance = std::copysign(difference.norm(), difference * result.normal);
+      const Tensor<1, dim> offset = x - result.point;
+      result.distance = std::copysign(offset.norm(), offset * result.normal);
       return result;
     }
   }

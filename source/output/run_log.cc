@@ -1,5 +1,6 @@
 #include <gemmule/output/run_log.h>
 #include <gemmule/parameters/errors.h>
+#include <gemmule/parameters/text.h>
 
 #include <chrono>
 #include <cmath>
@@ -132,6 +133,11 @@ void RunLog::progress(const double time, const double end_time, const unsigned i
   const std::string blanks(open_line_length > line.size() ? open_line_length - line.size() : 0, ' ');
   console.stream << '\r' << line << blanks << std::flush;
   open_line_length = line.size();
+}
+
+std::string rounded(const double number)
+{
+  return Parameters::short_number(number, 4);
 }
 
 std::string format_duration(const double seconds)

@@ -134,6 +134,17 @@ private:
   void resist_negative_tension();
   /** Level set and cut mesh of the current membrane after @p motion, with the area of the beginning. */
   void move_level_set(const MembraneMotion<dim> &motion);
+  /** The first part of a step: a mesh for the current membrane and its next place, and its motion there; a
+   * multiplier of the arclength changes @p motion. */
+  void move_membrane(const MembraneProjection<dim> &membrane, MembraneMotion<dim> &motion);
+  /** The second part: the phases on the membrane that has been moved. */
+  void advance_phases(const MembraneProjection<dim> &membrane,
+                      const std::vector<TransportedFields<dim>> &transported,
+                      const CutCellScalar<dim> &predicted, const BdfCoefficients &bdf,
+                      const MembranePointValues *curvature);
+  /** Whether there is MembraneBending is a property of the state, not of its history: a resumed run has to
+   * find the same. */
+  void make_or_drop_bending();
   /** repair_membrane(), which in case of a failure leaves a state that it has half changed. */
   RepairReport begin_from_repaired_membrane();
   /** Takes membrane, phases and flow as they are now for the current state, with no past. */

@@ -80,6 +80,9 @@ private:
   std::optional<double> last_shown;           ///< wall clock of the last progress line
 };
 
+/** The number as the messages of a run show it, with four digits. */
+std::string rounded(double number);
+
 /** "42 s", "3 min 05 s", "2 h 07 min"; "?" when not finite. */
 std::string format_duration(double seconds);
 
