@@ -101,7 +101,7 @@ void SemiImplicitBending<dim>::add_rhs(const CutGeometry<dim> &geometry, const d
     const unsigned int k = band_cell.cut_index;
     const CutCell<dim> &cell = geometry.cut_cells()[k];
     local.fill(0.);
-    matrix.equ(cell.size, band_cell.normal_derivatives);
+    stabilised_mass_matrix(band_cell, matrix);
     stiffness = 0.;
     for (unsigned int q = 0; q < cell.surface_points.size(); ++q)
     {
@@ -117,10 +117,7 @@ void SemiImplicitBending<dim>::add_rhs(const CutGeometry<dim> &geometry, const d
       {
         local[i] += slope * point.surface_gradients[i];
         for (unsigned int j = 0; j < nt; ++j)
-        {
-          matrix(i, j) += weight * point.values[i] * point.values[j];
           stiffness(i, j) += weight * (point.surface_gradients[i] * point.surface_gradients[j]);
-        }
       }
     }
     mass.add_matrix(b, matrix);

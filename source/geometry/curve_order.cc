@@ -48,6 +48,104 @@ namespace
   {
     return {std::llround(p[0] / round_off), p[1]};
   }
+
+  /** For each point the one that follows on its curve, or none. */
+  std::vector<unsigned int> find_successors(const std::vector<Point<2>> &points,
+                                            const std::vector<Tensor<1, 2>> &normals,
+                                            const double largest_spacing)
+  {
+    const unsigned int n = points.size();
+    const double bin_size = 3. * largest_spacing;
+    const auto bin_of = [&](const Point<2> &p)
+    {
+      return std::make_pair(static_cast<std::int32_t>(std::floor(p[0] / bin_size)),
+                            static_cast<std::int32_t>(std::floor(p[1] / bin_size)));
+    };
+    const auto key = [](const std::int32_t a, const std::int32_t b) {
+      return (static_cast<std::uint64_t>(static_cast<std::uint32_t>(a)) << 32) |
+             static_cast<std::uint32_t>(b);
+    };
+    std::unordered_map<std::uint64_t, std::vector<unsigned int>> bins;
+    for (unsigned int i = 0; i < n; ++i)
+    {
+      const auto b = bin_of(points[i]);
+      bins[key(b.first, b.second)].push_back(i);
+    }
+
+    std::vector<unsigned int> successor(n, none);
+    std::vector<unsigned int> candidates;
+    for (unsigned int i = 0; i < n; ++i)
+    {
+      candidates.clear();
+      const auto b = bin_of(points[i]);
+      for (int dx = -1; dx <= 1; ++dx)
+        for (int dy = -1; dy <= 1; ++dy)
+        {
+          const auto bin = bins.find(key(b.first + dx, b.second + dy));
+          if (bin != bins.end())
+            candidates.insert(candidates.end(), bin->second.begin(), bin->second.end());
+        }
+      successor[i] = nearest_ahead(i, candidates, points, normals, true);
+      if (successor[i] == none) // a corner
+        successor[i] = nearest_ahead(i, candidates, points, normals, false);
+    }
+    return successor;
+  }
+
+  /** The closed curves; points in excess, where the spacing is uneven, lead into one from the side. */
+  std::vector<std::vector<unsigned int>> find_cycles(const std::vector<unsigned int> &successor)
+  {
+    const unsigned int n = successor.size();
+    std::vector<std::vector<unsigned int>> curves;
+    constexpr unsigned int not_reached = 0;
+    std::vector<unsigned int> reached_from(n, not_reached); // the walk that came there first, counted from 1
+    for (unsigned int start = 0; start < n; ++start)
+    {
+      unsigned int i = start;
+      while (i != none && reached_from[i] == not_reached)
+      {
+        reached_from[i] = start + 1;
+        i = successor[i];
+      }
+      if (i == none || reached_from[i] != start + 1)
+        continue;
+      curves.emplace_back();
+      const unsigned int first = i;
+      do
+      {
+        curves.back().push_back(i);
+        i = successor[i];
+      } while (i != first);
+    }
+    return curves;
+  }
+
+  /** Puts each point that is on none of the curves behind its nearest neighbour on them. */
+  void insert_strays(const std::vector<Point<2>> &points, std::vector<std::vector<unsigned int>> &curves)
+  {
+    const unsigned int n = points.size();
+    std::vector<bool> is_on_curve(n, false);
+    for (const auto &curve : curves)
+      for (const unsigned int i : curve)
+        is_on_curve[i] = true;
+    for (unsigned int i = 0; i < n; ++i)
+      if (!is_on_curve[i])
+      {
+        double best = std::numeric_limits<double>::max();
+        std::pair<unsigned int, unsigned int> place(none, 0);
+        for (unsigned int c = 0; c < curves.size(); ++c)
+          for (unsigned int k = 0; k < curves[c].size(); ++k)
+            if (const double distance = points[i].distance_square(points[curves[c][k]]); distance < best)
+            {
+              best = distance;
+              place = {c, k};
+            }
+        if (place.first == none)
+          curves.push_back({i});
+        else
+          curves[place.first].insert(curves[place.first].begin() + place.second + 1, i);
+      }
+  }
 } // namespace
 
 std::vector<std::vector<unsigned int>> order_closed_curves(const std::vector<Point<2>> &points,
@@ -61,84 +159,12 @@ std::vector<std::vector<unsigned int>> order_closed_curves(const std::vector<Poi
   if (n == 0)
     return curves;
 
-  const double bin_size = 3. * *std::max_element(spacing.begin(), spacing.end());
-  const auto bin_of = [&](const Point<2> &p)
-  {
-    return std::make_pair(static_cast<std::int32_t>(std::floor(p[0] / bin_size)),
-                          static_cast<std::int32_t>(std::floor(p[1] / bin_size)));
-  };
-  const auto key = [](const std::int32_t a, const std::int32_t b) {
-    return (static_cast<std::uint64_t>(static_cast<std::uint32_t>(a)) << 32) | static_cast<std::uint32_t>(b);
-  };
-  std::unordered_map<std::uint64_t, std::vector<unsigned int>> bins;
-  for (unsigned int i = 0; i < n; ++i)
-  {
-    const auto b = bin_of(points[i]);
-    bins[key(b.first, b.second)].push_back(i);
-  }
-
-  std::vector<unsigned int> successor(n, none);
-  std::vector<unsigned int> candidates;
-  for (unsigned int i = 0; i < n; ++i)
-  {
-    candidates.clear();
-    const auto b = bin_of(points[i]);
-    for (int dx = -1; dx <= 1; ++dx)
-      for (int dy = -1; dy <= 1; ++dy)
-      {
-        const auto bin = bins.find(key(b.first + dx, b.second + dy));
-        if (bin != bins.end())
-          candidates.insert(candidates.end(), bin->second.begin(), bin->second.end());
-      }
-    successor[i] = nearest_ahead(i, candidates, points, normals, true);
-    if (successor[i] == none) // a corner
-      successor[i] = nearest_ahead(i, candidates, points, normals, false);
-  }
-
-  // The curves are the cycles: points in excess, where the spacing is uneven, lead into one from the side.
-  constexpr unsigned int not_reached = 0;
-  std::vector<unsigned int> reached_from(n, not_reached); // the walk that came there first, counted from 1
-  std::vector<bool> visited(n, false);
-  for (unsigned int start = 0; start < n; ++start)
-  {
-    unsigned int i = start;
-    while (i != none && reached_from[i] == not_reached)
-    {
-      reached_from[i] = start + 1;
-      i = successor[i];
-    }
-    if (i == none || reached_from[i] != start + 1)
-      continue;
-    curves.emplace_back();
-    while (!visited[i])
-    {
-      visited[i] = true;
-      curves.back().push_back(i);
-      i = successor[i];
-    }
-  }
-  // A point beside them is put behind its nearest neighbour.
-  for (unsigned int i = 0; i < n; ++i)
-    if (!visited[i])
-    {
-      double best = std::numeric_limits<double>::max();
-      std::pair<unsigned int, unsigned int> place(none, 0);
-      for (unsigned int c = 0; c < curves.size(); ++c)
-        for (unsigned int k = 0; k < curves[c].size(); ++k)
-          if (const double distance = points[i].distance_square(points[curves[c][k]]); distance < best)
-          {
-            best = distance;
-            place = {c, k};
-          }
-      visited[i] = true;
-      if (place.first == none)
-        curves.push_back({i});
-      else
-        curves[place.first].insert(curves[place.first].begin() + place.second + 1, i);
-    }
+  const double largest_spacing = *std::max_element(spacing.begin(), spacing.end());
+  curves = find_cycles(find_successors(points, normals, largest_spacing));
+  insert_strays(points, curves);
 
   // A symmetric membrane has two leftmost points: which of them is first must not hang on the last digit.
-  const double round_off = 1e-6 * *std::max_element(spacing.begin(), spacing.end());
+  const double round_off = 1e-6 * largest_spacing;
   const auto comes_before = [&](const unsigned int i, const unsigned int j)
   { return place_of(points[i], round_off) < place_of(points[j], round_off); };
   for (auto &curve : curves)

@@ -211,7 +211,7 @@ void CahnHilliard<dim>::initialise(const TraceSpace<dim> &space, const TraceFiel
   for (unsigned int k = 0; k < space.band().size(); ++k)
   {
     const auto &cell = space.band()[k];
-    matrix.equ(cell.size, cell.normal_derivatives);
+    stabilised_mass_matrix(cell, matrix);
     local.fill(0.);
     if (cell.cut)
     {
@@ -227,11 +227,7 @@ void CahnHilliard<dim>::initialise(const TraceSpace<dim> &space, const TraceFiel
         const double value = local_potential(cell.cut_index, q, point.value(nodal_f)).value;
         const auto gradient = square * point.surface_gradient(nodal_f);
         for (unsigned int i = 0; i < n; ++i)
-        {
           local[i] += weight * (value * point.values[i] + gradient * point.surface_gradients[i]);
-          for (unsigned int j = 0; j < n; ++j)
-            matrix(i, j) += weight * point.values[i] * point.values[j];
-        }
       }
     }
     projection.add_matrix(k, matrix);

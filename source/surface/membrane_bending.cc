@@ -29,18 +29,9 @@ void MembraneBending<dim>::assemble_mass_matrix()
   begin_system(space, 1, system);
   system.zero_matrix();
   FullMatrix<double> matrix(n, n);
-  SurfacePoint<dim> point;
   for (unsigned int k = 0; k < space.band().size(); ++k)
   {
-    const BandCell<dim> &cell = space.band()[k];
-    matrix.equ(cell.size, cell.normal_derivatives);
-    for (unsigned int q = 0; q < cell.cut->surface_points.size(); ++q)
-    {
-      point.reinit(*cell.cut, q);
-      for (unsigned int i = 0; i < n; ++i)
-        for (unsigned int j = 0; j < n; ++j)
-          matrix(i, j) += cell.cut->surface_weights[q] * point.values[i] * point.values[j];
-    }
+    stabilised_mass_matrix(space.band()[k], matrix);
     system.add_matrix(k, matrix);
   }
   system.factorise();

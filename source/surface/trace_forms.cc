@@ -33,6 +33,22 @@ void begin_system(const TraceSpace<dim> &space, const unsigned int n_fields, Ele
 }
 
 template <int dim>
+void stabilised_mass_matrix(const BandCell<dim> &cell, FullMatrix<double> &matrix)
+{
+  matrix.equ(cell.size, cell.normal_derivatives);
+  if (!cell.cut)
+    return;
+  typename TraceSpace<dim>::Basis::Values values;
+  for (unsigned int q = 0; q < cell.cut->surface_points.size(); ++q)
+  {
+    TraceSpace<dim>::Basis::evaluate(cell.cut->surface_points[q], values);
+    for (unsigned int i = 0; i < values.size(); ++i)
+      for (unsigned int j = 0; j < values.size(); ++j)
+        matrix(i, j) += cell.cut->surface_weights[q] * values[i] * values[j];
+  }
+}
+
+template <int dim>
 void add_history(const BandCell<dim> &cell, const SurfaceStep<dim> &step,
                  std::vector<double> MembraneCloud<dim>::*const density, double *const local)
 {
@@ -68,7 +84,7 @@ TraceField<dim> project(const TraceSpace<dim> &space,
   for (unsigned int k = 0; k < space.band().size(); ++k)
   {
     const auto &cell = space.band()[k];
-    matrix.equ(cell.size, cell.normal_derivatives);
+    stabilised_mass_matrix(cell, matrix);
     local.fill(0.);
     if (cell.cut)
       for (unsigned int q = 0; q < cell.cut->surface_points.size(); ++q)
@@ -76,12 +92,7 @@ TraceField<dim> project(const TraceSpace<dim> &space,
         point.reinit(*cell.cut, q);
         const double value = function(cell.cut_index, q, cell.cut->physical(cell.cut->surface_points[q]));
         for (unsigned int i = 0; i < n; ++i)
-        {
-          const double test = cell.cut->surface_weights[q] * point.values[i];
-          local[i] += test * value;
-          for (unsigned int j = 0; j < n; ++j)
-            matrix(i, j) += test * point.values[j];
-        }
+          local[i] += cell.cut->surface_weights[q] * point.values[i] * value;
       }
     system.add_matrix(k, matrix);
     system.add_rhs(k, local.data(), rhs);
@@ -93,6 +104,7 @@ TraceField<dim> project(const TraceSpace<dim> &space,
 
 #define GEMMULE_INSTANTIATE(dim)                                                                             \
   template void begin_system(const TraceSpace<dim> &, unsigned int, ElementSystem &);                        \
+  template void stabilised_mass_matrix(const BandCell<dim> &, FullMatrix<double> &);                         \
   template void add_history(const BandCell<dim> &, const SurfaceStep<dim> &,                                 \
                             std::vector<double> MembraneCloud<dim>::*, double *);                            \
   template TraceField<dim> project(                                                                          \

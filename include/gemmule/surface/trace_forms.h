@@ -56,6 +56,10 @@ public:
 template <int dim>
 void begin_system(const TraceSpace<dim> &space, unsigned int n_fields, ElementSystem &system);
 
+/** matrix = int_membrane y v + h int_band (n.grad y)(n.grad v), the part of one cell of the band. */
+template <int dim>
+void stabilised_mass_matrix(const BandCell<dim> &cell, dealii::FullMatrix<double> &matrix);
+
 /**
  * local[i] -= (a1 sum_{cloud n-1} w y phi_i + a2 sum_{cloud n-2} w y phi_i) / dt: what the earlier membranes
  * contribute to the right side of the conservative scheme in one cell of the band.
