@@ -92,7 +92,8 @@ void exchange(ArrayExchange &archive, CoupledState<dim> &state)
   archive("dt_preceding", state.dt_preceding);
   archive("area_0", state.area_0);
   archive("arclength_0", state.arclength_0);
-  archive("capillary_step", state.capillary_step);
+  archive("capillary_limit", state.limits.capillary);
+  archive("displacement_limit", state.limits.displacement);
   archive("grid_scale_rigidity", state.grid_scale_rigidity);
   archive.integers("mesh", state.mesh);
   archive("steps_since_remeshing", state.steps_since_remeshing);

@@ -108,7 +108,7 @@ void CoupledSystem<dim>::start_history(const double time)
   previous = MembraneSnapshot<dim>();
   dt_previous = dt_preceding = 0.;
   resist_negative_tension();
-  current_capillary_step = membrane_flow.capillary_time_step(geometry);
+  current_limits = membrane_flow.time_step_limits(geometry);
 }
 
 template <int dim>
@@ -175,7 +175,7 @@ void CoupledSystem<dim>::accept()
   dt_previous = dt_trial;
   previous = std::move(current);
   current = std::move(trial);
-  current_capillary_step = trial_capillary_step;
+  current_limits = trial_limits;
   resist_negative_tension();
   sample_flow();
 }

@@ -107,6 +107,7 @@ std::vector<MembraneSample<dim>> CoupledSystem<dim>::samples(const MembraneProje
     if (motion != nullptr)
     {
       sample.point += motion->displacement(p);
+      sample.time_level = 1;
       result.push_back(sample);
     }
   }

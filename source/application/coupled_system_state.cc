@@ -13,7 +13,7 @@ CoupledState<dim> CoupledSystem<dim>::state() const
   state.dt_preceding = dt_preceding;
   state.area_0 = area_0;
   state.arclength_0 = arclength_0;
-  state.capillary_step = current_capillary_step;
+  state.limits = current_limits;
   state.grid_scale_rigidity = model.bending().grid_scale_rigidity();
   state.mesh = gather_mesh_cells(triangulation);
   state.steps_since_remeshing = steps_since_remeshing;
@@ -41,7 +41,7 @@ void CoupledSystem<dim>::restore(const CoupledState<dim> &state)
   dt_preceding = state.dt_preceding;
   area_0 = state.area_0;
   arclength_0 = state.arclength_0;
-  current_capillary_step = state.capillary_step;
+  current_limits = state.limits;
   model.bending().set_grid_scale_rigidity(state.grid_scale_rigidity);
   last_computed_time = current.time;
 }

@@ -32,6 +32,8 @@ void CoupledSystem<dim>::move_level_set(const MembraneMotion<dim> &motion)
   try
   {
     cut_mesh(true);
+    if (!level_set.is_accurate_around(geometry))
+      throw SimulationError("The membrane moves by more than a cell in one time step: the step is too long.");
   }
   catch (const SimulationError &)
   {
@@ -164,7 +166,7 @@ StepErrors CoupledSystem<dim>::try_step(const double dt)
     old_velocity[c] = transported[c].previous_velocity;
   solve_flow(time, dt, &old_velocity);
   last_computed_time = time;
-  trial_capillary_step = membrane_flow.capillary_time_step(geometry);
+  trial_limits = membrane_flow.time_step_limits(geometry);
   trial = take_snapshot(time, transported);
   return estimate_step_errors(geometry, get_flow(), surface.get(), transported, predicted, steps,
                               communicator);

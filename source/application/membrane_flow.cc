@@ -151,13 +151,23 @@ double MembraneFlow<dim>::smallest_tension() const
 }
 
 template <int dim>
-double MembraneFlow<dim>::capillary_time_step(const CutGeometry<dim> &geometry) const
+TimeStepLimits MembraneFlow<dim>::time_step_limits(const CutGeometry<dim> &geometry) const
 {
-  double smallest = std::numeric_limits<double>::max();
+  constexpr double tiny = 1e-12;
+  double capillary = std::numeric_limits<double>::max(), displacement = capillary;
   for (unsigned int c = 0; c < geometry.cut_cells().size(); ++c)
+  {
+    const CutCell<dim> &cell = geometry.cut_cells()[c];
     for (const double sigma : total_tension[c])
-      smallest = std::min(smallest, geometry.cut_cells()[c].size / std::max(std::abs(sigma), 1e-12));
-  return parameters.fluid.capillary_number * Utilities::MPI::min(smallest, communicator);
+      capillary = std::min(capillary, cell.size / std::max(std::abs(sigma), tiny));
+    for (unsigned int q = 0; q < cell.surface_points.size(); ++q)
+    {
+      const double speed = stokes.membrane_velocity()[c].value(cell.surface_points[q]) * cell.normals[q];
+      displacement = std::min(displacement, cell.size / std::max(std::abs(speed), tiny));
+    }
+  }
+  return {parameters.fluid.capillary_number * Utilities::MPI::min(capillary, communicator),
+          Utilities::MPI::min(displacement, communicator)};
 }
 
 template class MembraneFlow<2>;

@@ -1,6 +1,7 @@
 #include <gemmule/algebra/gather.h>
 #include <gemmule/geometry/level_set.h>
 
+#include <deal.II/base/mpi.h>
 #include <deal.II/dofs/dof_tools.h>
 #include <deal.II/numerics/vector_tools_interpolate.h>
 
@@ -77,20 +78,19 @@ void LevelSet<dim>::set_nodes(const MembraneProjection<dim> &membrane,
     if (!cell->is_locally_owned() && !cell->is_ghost())
       continue;
     const double h = cell->extent_in_direction(0);
-    const bool in_band = cell->center().distance(membrane.nearest(cell->center()).point) <
-                         std::max(band_in_cells * h, least_width);
+    const Point<dim> center = cell->center();
+    const auto &nearest = membrane.nearest(center);
+    const bool in_band = center.distance(nearest.point) < std::max(band_in_cells * h, least_width);
     is_in_band[cell->active_cell_index()] = in_band;
     if (!in_band && far_nodes_are_set)
       continue;
-    // Beyond the band all of a cell is on one side.
-    const double side = in_band || sides == nullptr
-                            ? 0.
-                            : sides->with_side(membrane.approximate_distance(cell->center()), cell->center());
-    const auto approximate = [&](const Point<dim> &x)
+    // Beyond the band all of a cell is on one side, and its distance from one point of the membrane will do.
+    double side = 0.;
+    if (!in_band)
     {
-      const double distance = membrane.approximate_distance(x);
-      return side == 0. ? distance : std::copysign(distance, side);
-    };
+      const double distance = membrane.approximate_distance(center);
+      side = sides == nullptr ? distance : sides->with_side(distance, center);
+    }
     cell->get_dof_indices(dofs);
     for (unsigned int i = 0; i < node_to_dof.size(); ++i)
     {
@@ -101,7 +101,7 @@ void LevelSet<dim>::set_nodes(const MembraneProjection<dim> &membrane,
       if (done == 2 || (done == 1 && !in_band))
         continue;
       const Point<dim> x = cell->vertex(0) + h * Tensor<1, dim>(TensorLagrange<dim, 3>::node(i));
-      phi(dof) = in_band ? accurate(x) : approximate(x);
+      phi(dof) = in_band ? accurate(x) : std::copysign(x.distance(nearest.point), side);
       done = in_band ? 2 : 1;
     }
   }
@@ -208,6 +208,29 @@ void LevelSet<dim>::restore(const std::vector<LevelSetCell<dim>> &cells, const b
   // They were finished when they were taken; finishing them again might change the last digit.
   phi.update_ghost_values();
   far_nodes_are_set = set_everywhere;
+}
+
+template <int dim>
+bool LevelSet<dim>::is_accurate_around(const CutGeometry<dim> &geometry) const
+{
+  bool is_accurate = true;
+  const auto visit = [&](const auto &cell)
+  { is_accurate = is_accurate && is_in_band[cell->active_cell_index()]; };
+  for (const auto &cell : triangulation.active_cell_iterators())
+  {
+    if (!cell->is_locally_owned() || geometry.location(cell->active_cell_index()) != CellLocation::cut)
+      continue;
+    visit(cell);
+    for (const unsigned int face : cell->face_indices())
+      if (cell->at_boundary(face))
+        continue;
+      else if (!cell->neighbor(face)->has_children())
+        visit(cell->neighbor(face));
+      else
+        for (unsigned int part = 0; part < cell->face(face)->n_children(); ++part)
+          visit(cell->neighbor_child_on_subface(face, part));
+  }
+  return Utilities::MPI::min(static_cast<unsigned int>(is_accurate), triangulation.get_communicator()) > 0;
 }
 
 template <int dim>

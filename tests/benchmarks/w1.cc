@@ -113,7 +113,8 @@ void make_step(CoupledSystem<2> &system, StepControl &control, Measurement &meas
   const auto &options = system.get_parameters().time_stepping;
   while (true)
   {
-    const double dt = control.propose(options.interface_courant_number * system.capillary_time_step());
+    const double dt =
+        control.propose(system.time_step_limits().longest_step(options.interface_courant_number));
     try
     {
       const auto errors = system.try_step(dt);

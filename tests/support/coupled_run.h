@@ -74,7 +74,7 @@ inline std::vector<StatisticsRow> run_with_step_control(const AllParameters &par
   std::vector<StatisticsRow> rows{statistics_of(system)};
   while (!control.finished())
   {
-    const auto errors = system.try_step(control.propose(system.capillary_time_step()));
+    const auto errors = system.try_step(control.propose(system.time_step_limits().longest_step(1.)));
     if (!control.judge(std::max(errors.shape, errors.composition) / parameters.time_stepping.tolerance))
       continue;
     system.accept();

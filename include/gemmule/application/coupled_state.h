@@ -3,6 +3,7 @@
 #include <gemmule/geometry/membrane_snapshot.h>
 #include <gemmule/mesh/mesh_cells.h>
 #include <gemmule/mesh/refinement_criterion.h>
+#include <gemmule/time/time_step_limits.h>
 
 namespace Gemmule
 {
@@ -22,7 +23,7 @@ struct CoupledState
   double dt_previous = 0.;  ///< between previous and current
   double dt_preceding = 0.; ///< the one before
   double area_0 = 0., arclength_0 = 0.;
-  double capillary_step = 0.; ///< limit of the explicit coupling, per unit of its Courant number
+  TimeStepLimits limits;
   double grid_scale_rigidity = 0.;
 
   std::vector<MeshCell<dim>> mesh; ///< refinement has hysteresis, so that the membrane does not imply it

@@ -85,11 +85,9 @@ public:
   double computed_time() const { return last_computed_time; }
   double last_step() const { return dt_previous; }
 
-  /**
-   * Limit C h Ca / max|sigma| of the explicit coupling, per unit of C, in the current (accepted) state: what
-   * a try computed, or left half done, says nothing about the next one.
-   */
-  double capillary_time_step() const { return current_capillary_step; }
+  /** Of the current (accepted) state: what a try computed, or left half done, says nothing about the next
+   * one. */
+  const TimeStepLimits &time_step_limits() const { return current_limits; }
 
   // What the last state that was computed is like, for output.
   const AllParameters &get_parameters() const { return parameters; }
@@ -181,6 +179,6 @@ private:
   double dt_preceding = 0.; ///< the one before
   double dt_trial = 0.;
   double last_computed_time = 0.;
-  double current_capillary_step = 0., trial_capillary_step = 0.;
+  TimeStepLimits current_limits, trial_limits;
 };
 } // namespace Gemmule

@@ -7,6 +7,7 @@
 #include <gemmule/parameters/all_parameters.h>
 #include <gemmule/surface/membrane_bending.h>
 #include <gemmule/surface/surface_solver.h>
+#include <gemmule/time/time_step_limits.h>
 
 #include <deal.II/base/function.h>
 #include <deal.II/base/timer.h>
@@ -56,8 +57,8 @@ public:
   const MembraneScalar &tension() const { return total_tension; }
   /** Over the whole membrane. Collective. */
   double smallest_tension() const;
-  /** Smallest h Ca / |sigma|, of which the explicit coupling may take some. Collective. */
-  double capillary_time_step(const CutGeometry<dim> &geometry) const;
+  /** What limits the step that leads away from the last solution. Collective. */
+  TimeStepLimits time_step_limits(const CutGeometry<dim> &geometry) const;
 
 private:
   MembraneScalar tension_of(const Membrane &membrane, double time) const;

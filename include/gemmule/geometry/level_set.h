@@ -78,6 +78,12 @@ public:
    */
   void restore(const std::vector<LevelSetCell<dim>> &cells, bool set_everywhere);
 
+  /**
+   * Are all cells that the membrane cuts and their neighbours in the band of the last step? Elsewhere phi is
+   * not that of this membrane, but for its sign. Collective.
+   */
+  bool is_accurate_around(const CutGeometry<dim> &geometry) const;
+
   /** phi += amount in the band: moves the membrane inwards by this length (area correction). */
   void shift(double amount);
 
