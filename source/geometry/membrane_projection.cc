@@ -70,7 +70,10 @@ namespace
     Tensor<2, dim> matrix = multiplier * phi.hessian;
     for (unsigned int d = 0; d < dim; ++d)
       matrix[d][d] += 1.;
-    if (!(determinant(matrix) > 0.05))
+    const double tangential_trace =
+        trace(matrix) - phi.gradient * (matrix * phi.gradient) / phi.gradient.norm_square();
+    // In 3D two negative eigenvalues have a positive product as well.
+    if (!(determinant(matrix) > 0.05) || (dim == 3 && !(tangential_trace > 0.)))
       return false;
     const Tensor<2, dim> inverse = invert(matrix);
     const double denominator = phi.gradient * (inverse * phi.gradient);

@@ -118,10 +118,9 @@ RepairedConcentration<dim>::RepairedConcentration(const MembraneProjection<dim> 
   weighted_mass = Utilities::MPI::sum(weighted_mass, communicator);
   const double missing = mass - carried_mass;
   is_local = std::abs(missing) <= largest_local_factor * std::abs(weighted_mass);
-  const double reference = is_local ? weighted_mass : carried_mass;
-  if (std::abs(reference) < 1e-3 * std::abs(mass))
+  if (!is_local && std::abs(carried_mass) < 1e-3 * std::abs(mass))
     throw SimulationError("The concentrations on the repaired membrane have no mass.");
-  factor = mass == 0. ? 0. : missing / reference;
+  factor = missing == 0. ? 0. : missing / (is_local ? weighted_mass : carried_mass);
 }
 
 template <int dim>

@@ -41,17 +41,28 @@ void GapCriterion<dim>::prepare(const std::vector<MembraneSample<dim>> &samples)
     hashes.push_back({largest_margin * cells * box.cell_size(level - 1), {}});
   for (auto &hash : hashes)
   {
-    // One sample for each small cube and orthant of the normal: the sheets in a cube are kept apart.
-    std::array<std::unordered_set<Key, LatticeKeyHash<dim>>, 1 << dim> taken;
+    // One sample for each small cube, time and orthant of the normal: the sheets in a cube are kept apart.
+    std::array<std::unordered_set<Key, LatticeKeyHash<dim>>, 2 << dim> taken;
     for (const auto &sample : samples)
     {
-      unsigned int orthant = 0;
+      AssertIndexRange(sample.time_level, 2);
+      unsigned int sheet = sample.time_level << dim;
       for (unsigned int d = 0; d < dim; ++d)
-        orthant |= (sample.normal[d] > 0. ? 1u : 0u) << d;
-      if (taken[orthant].insert(key(sample.point, thinning * hash.radius)).second)
-        hash.bins[key(sample.point, hash.radius)].push_back({sample.point, sample.normal});
+        sheet |= (sample.normal[d] > 0. ? 1u : 0u) << d;
+      if (taken[sheet].insert(key(sample.point, thinning * hash.radius)).second)
+        hash.bins[key(sample.point, hash.radius)].push_back({sample.point, sample.normal, sample.time_level});
     }
   }
+}
+
+template <int dim>
+std::size_t GapCriterion<dim>::largest_bin() const
+{
+  std::size_t largest = 0;
+  for (const auto &hash : hashes)
+    for (const auto &[key, sheets] : hash.bins)
+      largest = std::max(largest, sheets.size());
+  return largest;
 }
 
 template <int dim>
@@ -72,7 +83,7 @@ double GapCriterion<dim>::gap(const MembraneSample<dim> &sample) const
         continue;
       for (const Sheet &other : bin->second)
       {
-        if (sample.normal * other.normal > opposite)
+        if (other.time_level != sample.time_level || sample.normal * other.normal > opposite)
           continue;
         const Tensor<1, dim> difference = other.point - sample.point;
         const double distance = difference.norm();

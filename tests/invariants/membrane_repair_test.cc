@@ -2,6 +2,8 @@
 #include <gemmule/geometry/membrane_repair.h>
 #include <gemmule/geometry/membrane_transport.h>
 
+#include <deal.II/base/function_signed_distance.h>
+
 #include <cmath>
 #include <gtest/gtest.h>
 
@@ -91,6 +93,42 @@ TEST(ParallelMembraneRepair, LeavesWhatIsResolved)
   const double coarse = error_on_a_circle(4), fine = error_on_a_circle(5);
   EXPECT_LT(fine, 1e-4);
   EXPECT_GT(std::log2(coarse / fine), 3.);
+}
+
+TEST(ParallelMembraneRepair, MassesStayWhereTheRepairedPlaceIsDilute)
+{
+  // The concentration is 1e-4 around the point that has been repaired, and one on the other side.
+  LevelSetMesh<2> mesh(7);
+  const Point<2> center(0.03, 0.01);
+  mesh.interpolate(Functions::SignedDistance::Sphere<2>(center, 0.45));
+  CutGeometry<2> geometry;
+  geometry.reinit(mesh.dof_handler, mesh.level_set);
+  const auto f = [&](const Point<2> &p) { return 1e-4 + 0.5 * (1. - std::tanh((p[0] - center[0]) / 0.05)); };
+  auto patches = gather_bare_patches(geometry, MPI_COMM_WORLD);
+  for (auto &patch : patches)
+    for (unsigned int i = 0; i < MembraneFields<2>::n; ++i)
+      patch.fields.concentration[i] =
+          f(patch.corner + patch.size * Tensor<1, 2>(TensorLagrange<2, 3>::node(i)));
+  const MembraneProjection<2> membrane(patches, Point<2>(-1., -1.));
+  const auto mass_of = [&](const Function<2> &concentration)
+  {
+    double mass = 0.;
+    for (const auto &cell : geometry.cut_cells())
+      for (unsigned int q = 0; q < cell.surface_points.size(); ++q)
+        mass += cell.surface_weights[q] * concentration.value(cell.physical(cell.surface_points[q]));
+    return Utilities::MPI::sum(mass, MPI_COMM_WORLD);
+  };
+  const Point<2> repaired(center[0] + 0.45, center[1]), opposite(center[0] - 0.45, center[1]);
+  const double carried = mass_of(ScalarFunctionFromFunctionObject<2>(f));
+  for (const double missing : {0., 2e-6, -2e-6})
+  {
+    const std::vector<Point<2>> points{repaired};
+    const RepairedConcentration<2> concentration(membrane, &MembraneFields<2>::concentration,
+                                                 carried + missing, geometry, points, MPI_COMM_WORLD);
+    EXPECT_NEAR(mass_of(concentration), carried + missing, 1e-12);
+    EXPECT_NEAR(concentration.value(opposite), f(opposite), 1e-6);
+    EXPECT_NEAR(concentration.value(repaired) / f(repaired), 1. + missing / 2.2e-5, 0.05);
+  }
 }
 
 TEST(ParallelMembraneRepair, MergesTwoVesiclesAcrossAFilmWithinACell)

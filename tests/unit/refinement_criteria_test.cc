@@ -217,10 +217,32 @@ TEST(RefinementCriteria, NearContactOfTwoCirclesIsResolvedWhereTheyAreNear)
   }
 }
 
+TEST(RefinementCriteria, GapIsWithinOneTimeLevel)
+{
+  // A finger that moves across itself: where it is and where it will be have no gap between them.
+  const double width = 0.06;
+  auto samples = two_sheets(width, 0.004, false);
+  const unsigned int n = samples.size();
+  for (const double travel : {0.01, 0.05, 0.06})
+  {
+    samples.resize(n);
+    for (unsigned int i = 0; i < n; ++i)
+    {
+      samples.push_back(samples[i]);
+      samples.back().point[1] += travel;
+      samples.back().time_level = 1;
+    }
+    GapCriterion<2> criterion(context<2>());
+    criterion.prepare(samples);
+    for (const auto &s : samples)
+      EXPECT_EQ(criterion.level(s, 1.), expected_level(width / 4.));
+  }
+}
+
 TEST(RefinementCriteria, WorkOfTheGapCriterionIsProportionalToTheSamples)
 {
   // Samples that are far denser than the cells, as a locally refined mesh leaves them, are thinned: what is
-  // seen of a gap does not depend on their number.
+  // seen of a gap does not depend on their number, nor does the number of those that one is compared with.
   const auto c = context<2>();
   for (const double spacing : {0.004, 0.001, 0.00025})
   {
@@ -229,6 +251,9 @@ TEST(RefinementCriteria, WorkOfTheGapCriterionIsProportionalToTheSamples)
     criterion.prepare(samples);
     for (unsigned int i = samples.size() / 3; i < samples.size() / 2; i += 17)
       EXPECT_EQ(criterion.level(samples[i], 1.), expected_level(0.052 / 4.));
+    // 8 small cubes along each of two sheets, and one more where a sheet crosses their boundary
+    EXPECT_LE(criterion.largest_bin(), 2u * 2u * 9u);
+    EXPECT_GE(criterion.largest_bin(), 8u);
   }
 }
 

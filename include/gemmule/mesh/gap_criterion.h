@@ -14,7 +14,7 @@ namespace Gemmule
  * Two points belong to sheets that face each other if their normals are more than 143 degrees apart and the
  * line between them is within 60 degrees of the normals; along one sheet normals turn that far only around a
  * tip, where the distance is the thickness of the tip and counts as well. The width of the gap is the part of
- * their difference along the normal.
+ * their difference along the normal. Both points belong to the same time.
  *
  * The distances that matter at each level, "Cells per gap" cells, are the bins of a spatial hash for that
  * level, in which the samples are thinned to an eighth of a bin: a sample looks at a bounded number of
@@ -27,6 +27,8 @@ public:
   explicit GapCriterion(const RefinementContext<dim> &context);
   void prepare(const std::vector<MembraneSample<dim>> &samples) override;
   unsigned int level(const MembraneSample<dim> &sample, double margin) const override;
+  /** The most samples that one bin has after thinning: bounds the work of level(). */
+  std::size_t largest_bin() const;
 
 private:
   using Key = LatticeKey<dim>;
@@ -34,6 +36,7 @@ private:
   {
     dealii::Point<dim> point;
     dealii::Tensor<1, dim> normal;
+    unsigned int time_level;
   };
   struct Hash
   {

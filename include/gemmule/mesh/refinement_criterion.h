@@ -20,6 +20,9 @@ struct MembraneSample
   double curvature = 0.;             ///< div n
   std::optional<double> composition; ///< c = f / f-bar, where there are phases
   dealii::Tensor<1, dim> normal;     ///< outward; zero where it is not known
+  /** The membrane may be sampled where it is (0) and where it will be (1): no point of the one has a distance
+   * from the other. */
+  unsigned int time_level = 0;
 };
 
 /**
