@@ -159,28 +159,6 @@ namespace
     return share;
   }
 
-  /** A point of a face in the unit coordinates of both cells. */
-  template <int dim>
-  std::array<Point<dim>, 2> on_both_sides(const InteriorFace &face, const Point<dim - 1> &point)
-  {
-    const unsigned int direction = face.face_number / 2, side = face.face_number % 2;
-    std::array<Point<dim>, 2> p;
-    for (unsigned int d = 0, t = 0; d < dim; ++d)
-      if (d == direction)
-      {
-        p[0][d] = side;
-        p[1][d] = 1. - side;
-      }
-      else
-      {
-        p[0][d] = p[1][d] = point[t];
-        if (face.refinement > 0)
-          p[1][d] = 0.5 * (p[0][d] + (((face.refinement - 1) >> t) & 1));
-        ++t;
-      }
-    return p;
-  }
-
   /** Jump of the traction across the face between cells of sizes @p h and @p h_second. */
   template <int dim>
   double face_share(const Flow<dim> &flow, const CutGeometry<dim> &geometry, const InteriorFace &face,
@@ -196,7 +174,7 @@ namespace
     double integral = 0.;
     for (unsigned int q = 0; q < quadrature.size(); ++q)
     {
-      const auto p = on_both_sides<dim>(face, quadrature.point(q));
+      const auto p = on_both_sides<dim>(face.face_number, face.refinement, quadrature.point(q));
       unsigned int fluid =
           first == CellLocation::cut ? second == CellLocation::outside : first == CellLocation::outside;
       if (cut != nullptr)

@@ -1,4 +1,5 @@
 #include <gemmule/flow/bulk_integrals.h>
+#include <gemmule/flow/interior_face.h>
 #include <gemmule/flow/stokes_reference_matrices.h>
 #include <gemmule/parameters/discretisation.h>
 
@@ -83,7 +84,6 @@ GhostPenaltyMatrices StokesReferenceMatrices<dim>::integrate_face(const unsigned
                                                                   const Parameters::Flow &parameters) const
 {
   const unsigned int direction = face_number / 2;
-  const double side = face_number % 2;
   const double size_ratio = refinement == 0 ? 1. : 2.;
 
   GhostPenaltyMatrices matrices;
@@ -93,18 +93,7 @@ GhostPenaltyMatrices StokesReferenceMatrices<dim>::integrate_face(const unsigned
   const QGauss<dim - 1> quadrature(3); // exact for Q2 times Q2
   for (unsigned int q = 0; q < quadrature.size(); ++q)
   {
-    Point<dim> in_first, in_second;
-    in_first[direction] = side;
-    in_second[direction] = 1. - side;
-    for (unsigned int d = 0, t = 0; d < dim; ++d)
-      if (d != direction)
-      {
-        const double x = quadrature.point(q)[t];
-        in_first[d] = x;
-        in_second[d] = refinement == 0 ? x : 0.5 * (x + (((refinement - 1) >> t) & 1));
-        ++t;
-      }
-
+    const auto [in_first, in_second] = on_both_sides<dim>(face_number, refinement, quadrature.point(q));
     std::array<double, 2 * Layout::n_velocity_nodes> velocity_1, velocity_2;
     normal_derivative_jumps<typename Layout::VelocityBasis>(in_first, in_second, direction, size_ratio,
                                                             velocity_1, velocity_2);

@@ -1,6 +1,7 @@
 #include <gemmule/geometry/band_level_set.h>
 #include <gemmule/geometry/cell_level_set.h>
 #include <gemmule/geometry/cloud_refinement.h>
+#include <gemmule/geometry/cut_geometry.h>
 #include <gemmule/geometry/cut_quadrature.h>
 
 #include <deal.II/base/mpi.h>
@@ -15,8 +16,6 @@ using namespace dealii;
 
 namespace
 {
-  constexpr unsigned int n_gauss_points = 4; // as in CutGeometry
-
   /** Measure and masses of some points of a cloud. */
   struct Sums
   {
@@ -67,12 +66,9 @@ namespace
   MembraneCloud<dim> points_of_patch(const MembranePatch<dim> &patch, const unsigned int n_parts)
   {
     using Basis = TensorLagrange<dim, 3>;
-    const hp::QCollection<1> gauss{QGauss<1>(n_gauss_points)};
+    const hp::QCollection<1> gauss{QGauss<1>(n_cut_gauss_points)};
     NonMatching::QuadratureGenerator<dim> generator(gauss);
-    Point<dim> one;
-    for (unsigned int d = 0; d < dim; ++d)
-      one[d] = 1.;
-    const BoundingBox<dim> unit_box(std::make_pair(Point<dim>(), one));
+    const BoundingBox<dim> box = unit_box<dim>();
 
     MembraneCloud<dim> cloud;
     CellLevelSet<dim> level_set;
@@ -86,9 +82,9 @@ namespace
       for (unsigned int i = 0; i < Basis::n; ++i)
       {
         const double value = Basis::value(patch.level_set, corner + part * Tensor<1, dim>(Basis::node(i)));
-        level_set.nodal[i] = (std::abs(value) < 1e-10 * size ? 1e-10 * size : value) / size;
+        level_set.nodal[i] = off_zero(value, size) / size;
       }
-      if (!generate_cut_quadrature(generator, level_set, unit_box))
+      if (!generate_cut_quadrature(generator, level_set, box))
         return MembraneCloud<dim>();
       const auto &surface = generator.get_surface_quadrature();
       for (unsigned int q = 0; q < surface.size(); ++q)
@@ -157,14 +153,14 @@ bool refine_cloud(MembraneSnapshot<dim> &snapshot,
           keep(i);
         continue;
       }
-      const auto ratio = [](const double wanted, const double present)
-      { return present != 0. ? wanted / present : 1.; };
+      // Masses by a constant, not by a factor: where a concentration changes its sign, that has no bound.
       const double stretch = replaced.measure / sums.measure,
-                   f = ratio(replaced.concentration, stretch * sums.concentration),
-                   f_total = ratio(replaced.total_concentration, stretch * sums.total_concentration);
+                   f = (replaced.concentration - stretch * sums.concentration) / replaced.measure,
+                   f_total =
+                       (replaced.total_concentration - stretch * sums.total_concentration) / replaced.measure;
       for (std::size_t i = 0; i < points.points.size(); ++i)
         append(result, points.points[i], points.normals[i], stretch * points.weights[i],
-               f * points.concentration[i], f_total * points.total_concentration[i]);
+               points.concentration[i] + f, points.total_concentration[i] + f_total);
     }
   snapshot.cloud = std::move(result);
   return true;

@@ -61,15 +61,6 @@ namespace
     FullMatrix<double> to_bernstein;
   };
 
-  template <int dim>
-  BoundingBox<dim> unit_box()
-  {
-    Point<dim> one;
-    for (unsigned int d = 0; d < dim; ++d)
-      one[d] = 1.;
-    return BoundingBox<dim>(std::make_pair(Point<dim>(), one));
-  }
-
   /** The cell with the rules of @p generator, which are for the cell of size one, as is @p unit_level_set. */
   template <int dim>
   CutCell<dim> make_cut_cell(const typename DoFHandler<dim>::active_cell_iterator &cell,
@@ -132,14 +123,8 @@ void CutGeometry<dim>::reinit(const DoFHandler<dim> &dof_handler, const Vector &
     const unsigned int index = cell->active_cell_index();
     const double h = cell->extent_in_direction(0);
     cell->get_dof_indices(dofs);
-    // A zero at a node would be cut or not by round-off, differently in the cells that share it: move it
-    // outside.
-    const double tiny = 1e-10 * h;
     for (unsigned int i = 0; i < cell_level_set.nodal.size(); ++i)
-    {
-      const double value = level_set(dofs[node_to_dof[i]]);
-      cell_level_set.nodal[i] = std::abs(value) < tiny ? tiny : value;
-    }
+      cell_level_set.nodal[i] = off_zero(level_set(dofs[node_to_dof[i]]), h);
 
     const auto bounds = bernstein_bounds(cell_level_set.nodal);
     if (bounds.first > 0. || bounds.second < 0.)

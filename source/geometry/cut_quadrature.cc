@@ -27,6 +27,15 @@ namespace
 } // namespace
 
 template <int dim>
+BoundingBox<dim> unit_box()
+{
+  Point<dim> one;
+  for (unsigned int d = 0; d < dim; ++d)
+    one[d] = 1.;
+  return BoundingBox<dim>(std::make_pair(Point<dim>(), one));
+}
+
+template <int dim>
 bool generate_cut_quadrature(NonMatching::QuadratureGenerator<dim> &generator,
                              const CellLevelSet<dim> &level_set, const BoundingBox<dim> &unit_box)
 {
@@ -42,6 +51,8 @@ bool generate_cut_quadrature(NonMatching::QuadratureGenerator<dim> &generator,
   }
 }
 
+template BoundingBox<2> unit_box();
+template BoundingBox<3> unit_box();
 template bool generate_cut_quadrature(NonMatching::QuadratureGenerator<2> &, const CellLevelSet<2> &,
                                       const BoundingBox<2> &);
 template bool generate_cut_quadrature(NonMatching::QuadratureGenerator<3> &, const CellLevelSet<3> &,

@@ -118,8 +118,56 @@ TEST(ParallelCloudRefinement, EveryNewCellHasItsShareAndTheSumsStay)
   for (unsigned int i = 0; i < 3; ++i)
     EXPECT_NEAR(after[i] / before[i], 1., 1e-13);
 
-  // Again, and on a coarser mesh: the sums stay what they are.
+  // Again, and on a coarser mesh, the sums stay what they are: the cells have all the points they need.
   refine_cloud(snapshot, mesh.triangulation);
   for (unsigned int i = 0; i < 3; ++i)
     EXPECT_NEAR(sums(snapshot.cloud)[i] / before[i], 1., 1e-13);
+  for (const auto &cell : mesh.triangulation.active_cell_iterators())
+    if (cell->is_locally_owned() && cell->level() > 4)
+      cell->set_coarsen_flag();
+  mesh.triangulation.execute_coarsening_and_refinement();
+  mesh.interpolate(circle);
+  geometry.reinit(mesh.dof_handler, mesh.level_set);
+  refine_cloud(snapshot, mesh.triangulation);
+  EXPECT_LT(largest_error_in_a_cell(snapshot, mesh, geometry), 2e-3);
+  for (unsigned int i = 0; i < 3; ++i)
+    EXPECT_NEAR(sums(snapshot.cloud)[i] / before[i], 1., 1e-13);
+}
+
+TEST(ParallelCloudRefinement, ConcentrationsWithoutMassInACellStay)
+{
+  LevelSetMesh<2> mesh(4);
+  mesh.interpolate(Functions::SignedDistance::Sphere<2>(Point<2>(0.0137, 0.0071), 0.45));
+  CutGeometry<2> geometry;
+  geometry.reinit(mesh.dof_handler, mesh.level_set);
+  MembraneSnapshot<2> snapshot = circle_snapshot(geometry);
+  const auto is_in_cell = [](const Point<2> &p) { return p[0] > 0.375 && p[1] > 0. && p[1] < 0.125; };
+  auto &cloud = snapshot.cloud;
+  double measure = 0., moment = 0.;
+  for (unsigned int i = 0; i < cloud.points.size(); ++i)
+    if (is_in_cell(cloud.points[i]))
+    {
+      measure += cloud.weights[i];
+      moment += cloud.weights[i] * cloud.points[i][1];
+    }
+  const auto concentration = [&](const Point<2> &p) { return p[1] - moment / measure; };
+  for (unsigned int i = 0; i < cloud.points.size(); ++i)
+    cloud.concentration[i] = concentration(cloud.points[i]);
+  for (auto &patch : snapshot.patches)
+    for (unsigned int i = 0; i < MembraneFields<2>::n; ++i)
+      patch.fields.concentration[i] =
+          concentration(patch.corner + patch.size * Tensor<1, 2>(TensorLagrange<2, 3>::node(i)));
+  const double before = sums(cloud)[1];
+
+  mesh.refine_where([](const auto &p) { return p[0] > 0.; });
+  EXPECT_TRUE(refine_cloud(snapshot, mesh.triangulation));
+  EXPECT_NEAR(sums(cloud)[1], before, 1e-13);
+  unsigned int n = 0;
+  for (unsigned int i = 0; i < cloud.points.size(); ++i)
+    if (is_in_cell(cloud.points[i]))
+    {
+      ++n;
+      EXPECT_NEAR(cloud.concentration[i], concentration(cloud.points[i]), 1e-4);
+    }
+  EXPECT_GT(n, 4u);
 }

@@ -110,7 +110,7 @@ TEST_P(ParallelShapeModes, DecayAtTheRatesOfLinearTheory)
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Modes, ParallelShapeModes, testing::Values(2u, 3u));
+INSTANTIATE_TEST_SUITE_P(ParallelModes, ParallelShapeModes, testing::Values(2u, 3u));
 
 TEST(ParallelCoupledBending, StepsAreNotLimitedByTheMesh)
 {

@@ -267,4 +267,15 @@ TEST(StokesInvariants, StaticSphere)
   std::cout << flow.solver.n_unknowns() << " unknowns, max |u| " << flow.solver.max_velocity() << std::endl;
   EXPECT_LT(flow.solver.max_velocity(), 5e-3);
   EXPECT_NEAR(flow.solver.net_flux(), 0., 1e-4);
+  // Laplace's law with two radii of curvature.
+  EXPECT_LT(flow.largest_pressure_error(2. / flow.radius), 0.1 * 2. / flow.radius);
+
+  // And a tension that makes it flow, along the membrane and across it.
+  flow.set_tension([](const Point<3> &p) { return 1. + 0.5 * (p[0] + p[1] * p[2] / 0.45) / 0.45; });
+  flow.solve(Functions::ZeroFunction<3>(3));
+  const double work = flow.solver.membrane_work();
+  std::cout << "dissipation " << flow.solver.viscous_dissipation() << ", work of the membrane " << work
+            << std::endl;
+  EXPECT_GT(work, 0.);
+  EXPECT_NEAR(flow.solver.viscous_dissipation(), work, 0.05 * work);
 }

@@ -55,6 +55,32 @@ struct FlowOnCircle
     solver.solve(tension, penalty);
   }
 
+  /** At the vertices, for a pressure of mean zero that is constant on either side of the membrane. */
+  double largest_pressure_error(const double jump) const
+  {
+    LinearAlgebra::distributed::Vector<double> values;
+    solver.interpolate(values);
+    const auto &fe = solver.dof_handler().get_fe();
+    std::vector<types::global_dof_index> dofs(fe.n_dofs_per_cell());
+    const auto pressure_dofs = lexicographic_cell_dofs(fe, dim);
+    const double inside_part =
+        (dim == 2 ? numbers::PI * std::pow(radius, 2) : 4. / 3. * numbers::PI * std::pow(radius, 3)) /
+        std::pow(2., dim);
+    double largest_error = 0.;
+    for (const auto &cell : solver.dof_handler().active_cell_iterators())
+      if (cell->is_locally_owned())
+      {
+        cell->get_dof_indices(dofs);
+        for (const unsigned int i : cell->vertex_indices())
+        {
+          const bool inside = cell->vertex(i).distance(center) < radius;
+          const double exact = jump * ((inside ? 1. : 0.) - inside_part);
+          largest_error = std::max(largest_error, std::abs(values(dofs[pressure_dofs[i]]) - exact));
+        }
+      }
+    return Utilities::MPI::max(largest_error, MPI_COMM_WORLD);
+  }
+
   /** Integral over the membrane of a function of position, normal and <u>. */
   double integrate(const std::function<double(const Point<dim> &, const Tensor<1, dim> &,
                                               const Tensor<1, dim> &)> &f) const

@@ -2,6 +2,7 @@
 
 #include <gemmule/algebra/active_dofs.h>
 #include <gemmule/flow/boundary_velocity.h>
+#include <gemmule/flow/interior_face.h>
 #include <gemmule/flow/stokes_layout.h>
 #include <gemmule/geometry/cut_geometry.h>
 
@@ -15,16 +16,6 @@
 
 namespace Gemmule
 {
-/** A face between two active cells that this rank is in charge of. */
-struct InteriorFace
-{
-  unsigned int first;        ///< active_cell_index of the finer cell (of equal ones either)
-  unsigned int second;       ///< active_cell_index of the other cell
-  unsigned char face_number; ///< of the first cell: 2 direction + side
-  /** 0: equal cells; 1 + p: the first cell is finer and lies at the p-th child face of the second. */
-  unsigned char refinement;
-};
-
 /**
  * Velocity-pressure pairs Q2-Q1 of both fluids on one mesh (design section 2): one Taylor-Hood DoFHandler, of
  * whose dofs each fluid has its own copy, active on the cells that the fluid touches. The unknowns of the

@@ -12,6 +12,9 @@
 
 namespace Gemmule
 {
+/** Points per direction of the Gauss rules that the rules of cut cells are made of. */
+constexpr unsigned int n_cut_gauss_points = 4;
+
 enum class CellLocation : unsigned char
 {
   inside,  ///< the whole cell lies in the vesicle (fluid 1)
@@ -63,7 +66,7 @@ class CutGeometry
 public:
   using Vector = dealii::LinearAlgebra::distributed::Vector<double>;
 
-  explicit CutGeometry(unsigned int n_gauss_points = 4);
+  explicit CutGeometry(unsigned int n_gauss_points = n_cut_gauss_points);
 
   /**
    * Cuts the cells. @p level_set must be ghosted and satisfy the hanging-node constraints.

@@ -5,8 +5,23 @@
 #include <deal.II/base/bounding_box.h>
 #include <deal.II/non_matching/quadrature_generator.h>
 
+#include <cmath>
+
 namespace Gemmule
 {
+/** [0, 1]^dim */
+template <int dim>
+dealii::BoundingBox<dim> unit_box();
+
+/**
+ * A nodal value of the level set of a cell of edge @p size as the rules need it: a zero would be cut or not
+ * by round-off, differently in the cells that share the node. It counts as outside.
+ */
+inline double off_zero(const double value, const double size)
+{
+  return std::abs(value) < 1e-10 * size ? 1e-10 * size : value;
+}
+
 /**
  * Makes the rules of a unit cell that the level set cuts.
  *

@@ -16,9 +16,8 @@ namespace Parameters
 }
 
 /**
- * The known energies of one kind by name. A new energy is one source file that ends in one registration line
- * (doc/extending.md); a program that links the library can add its own the same way before it makes the
- * model.
+ * The known energies of one kind by name. A new energy is a class and one line in energy_registry.cc
+ * (doc/extending.md); a program that links the library can add its own with add() before it makes the model.
  */
 template <typename Energy>
 class EnergyRegistry
