@@ -28,7 +28,7 @@ namespace
 Exit codes:
   0  finished
   1  something is wrong with the command or the parameters; the message says what
-  2  the simulation failed, or the disk is full; the last state was saved if possible
+  2  the simulation failed (its last state is saved), or the disk is full (the last checkpoint stays)
   3  stopped by a signal or its time limit; its state was saved, --resume continues it)";
 
   std::string quoted(const std::string &argument)
@@ -129,6 +129,8 @@ CommandLine CommandLine::parse(const int argc, const char *const *argv)
   else if (result.case_file.empty() && !result.print_parameters)
     throw UserError("no parameter file is given. Usage: gemmule CASE.prm [options]." + see_help);
 
+  if (result.check && result.resume)
+    throw UserError("--check looks at a new run only: leave out --resume, or --check." + see_help);
   if (app.count("--output") > 0 && directory.empty())
     throw UserError("--output needs the name of a directory." + see_help);
   result.overrides = settings;

@@ -129,6 +129,15 @@ int VesicleProblem<dim>::run()
     write_output_if_due(false);
   }
 
+  else if (control->finished())
+  {
+    // It was stopped where it ends now.
+    if (!membrane_is_written)
+      interface_writer->write(*membrane);
+    membrane_is_written = true;
+    write_checkpoint();
+  }
+
   while (!control->finished())
   {
     if (const std::string reason = make_step(); !reason.empty())

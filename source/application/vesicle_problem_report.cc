@@ -115,7 +115,8 @@ void VesicleProblem<dim>::print_timers()
 {
   std::ostringstream text;
   text << "finished: t = " << row.time << ", " << row.step << " steps, " << n_rejected << " rejected, "
-       << rounded(wall_clock.cpu_time()) << " s CPU (" << rounded(wall_clock.wall_time()) << " s wall clock)";
+       << (is_resumed ? "since it was resumed " : "") << rounded(wall_clock.cpu_time()) << " s CPU ("
+       << rounded(wall_clock.wall_time()) << " s wall clock)";
   log->info(text.str());
   log->info("  the mesh has changed " + std::to_string(system->mesh_changes()) + " times; " +
             std::to_string(system->mesh().n_global_active_cells()) + " cells at the end");

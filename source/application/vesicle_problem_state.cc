@@ -46,21 +46,29 @@ template <int dim>
 void VesicleProblem<dim>::save_last_state(const std::string &reason)
 {
   std::string saved;
-  try
+  // The first error is the one that counts.
+  const auto try_to = [&saved](const std::string &what, const auto &action)
   {
-    // The mesh already belongs to the step that failed; the membrane of the last accepted step is kept as
-    // samples.
-    if (!membrane_is_written)
-      interface_writer->write(*membrane);
-    membrane_is_written = true;
-    saved = " The membrane of the last accepted step is in interface.h5";
-    saved += ", its state in " + write_checkpoint() + ".";
-  }
-  catch (const std::exception &error)
-  {
-    // The first error is the one that counts.
-    saved += "; its state cannot be saved: " + std::string(error.what());
-  }
+    try
+    {
+      saved += " " + what + " is in " + action() + ".";
+    }
+    catch (const std::exception &error)
+    {
+      saved += " " + what + " cannot be saved: " + error.what();
+    }
+  };
+  // The mesh already belongs to the step that failed; the membrane of the last accepted step is kept as
+  // samples.
+  try_to("The membrane of the last accepted step",
+         [&]() -> std::string
+         {
+           if (!membrane_is_written)
+             interface_writer->write(*membrane);
+           membrane_is_written = true;
+           return "interface.h5";
+         });
+  try_to("The state of that step", [&] { return write_checkpoint(); });
   log->info("stopped at t = " + rounded(row.time) + " after " + std::to_string(row.step) +
             " steps: " + reason + saved);
 }

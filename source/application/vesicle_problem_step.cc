@@ -43,9 +43,10 @@ std::string VesicleProblem<dim>::make_step()
   }
   catch (const std::exception &error)
   {
-    // Of what kind it may be, with several ranks it need not have happened on all of them.
-    if (Utilities::MPI::n_mpi_processes(communicator) == 1)
-      save_last_state(error.what());
+    // Of what kind it may be, it need not have happened on all ranks, and not where the state is whole: what
+    // there is to go on with is the last checkpoint.
+    log->info("stopped at t = " + rounded(row.time) + " after " + std::to_string(row.step) +
+              " steps: " + error.what());
     throw;
   }
 }
@@ -109,7 +110,8 @@ std::string VesicleProblem<dim>::attempt_step()
     // Before each attempt: where the run struggles, a step may take dozens of them.
     if (std::string reason = stop_conditions.reason_to_stop(); !reason.empty())
       return reason;
-    const double dt = control->propose(options.interface_courant_number * system->capillary_time_step());
+    const double dt =
+        control->propose(system->time_step_limits().longest_step(options.interface_courant_number));
     try
     {
       const auto errors = system->try_step(dt);

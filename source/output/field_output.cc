@@ -1,3 +1,4 @@
+#include <gemmule/algebra/arrival.h>
 #include <gemmule/output/disk.h>
 #include <gemmule/output/field_output.h>
 #include <gemmule/output/hdf5_file.h>
@@ -10,6 +11,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <iomanip>
+#include <limits>
 #include <regex>
 #include <sstream>
 
@@ -132,7 +134,10 @@ void FieldWriter<dim>::write(const dealii::DataOutInterface<dim, dim> &data, con
   {
     failed_here = true;
   }
-  if (dealii::Utilities::MPI::logical_or(failed_here, communicator))
+  // One that has failed in the middle leaves the others waiting for it within HDF5.
+  const double patience = failed_here ? 10. : std::numeric_limits<double>::infinity();
+  if (!all_processes_arrive(communicator, patience) ||
+      dealii::Utilities::MPI::logical_or(failed_here, communicator))
     throw SimulationError("Cannot write " + path +
                           ": is the disk full, or the directory write-protected? Make room and go on with "
                           "--resume.");

@@ -112,6 +112,7 @@ void InterfaceWriter<dim>::start(const double resume_after_time)
     else
       file.remove(group);
   }
+  provenance.write_resumption(file, resume_after_time);
   file.close();
   write_xdmf();
 }

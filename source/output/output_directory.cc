@@ -4,6 +4,7 @@
 #include <gemmule/output/rank_zero.h>
 #include <gemmule/parameters/errors.h>
 
+#include <cerrno>
 #include <filesystem>
 #include <fstream>
 #include <regex>
@@ -14,10 +15,18 @@ namespace Gemmule
 {
 namespace
 {
+  /** A disk without room is no mistake in the command: the same one will do when there is some. */
+  void throw_if_full(const int system_error, const std::string &what)
+  {
+    if (system_error == ENOSPC || system_error == EDQUOT || system_error == EFBIG)
+      throw SimulationError(what + ": is the disk full? Make room and repeat the command.");
+  }
+
   void create(const std::string &directory)
   {
     std::error_code error;
     std::filesystem::create_directories(directory, error);
+    throw_if_full(error.value(), "Cannot create the output directory '" + directory + "'");
     if (error || !std::filesystem::is_directory(directory))
       throw UserError("Cannot create the output directory '" + directory + "' (" +
                       (error ? error.message() : std::string("there is a file of this name")) +
@@ -27,16 +36,19 @@ namespace
   void check_writable(const std::string &directory)
   {
     const std::string probe = directory + "/.write-test";
+    errno = 0;
     std::ofstream file(probe);
     file << "Removed at once." << std::flush;
     const bool is_writable = static_cast<bool>(file);
+    const int reason = is_writable ? 0 : errno;
     file.close();
     std::error_code ignored;
     std::filesystem::remove(probe, ignored);
+    throw_if_full(reason, "Cannot write to the output directory '" + directory + "'");
     if (!is_writable)
       throw UserError("Cannot write to the output directory '" + directory +
-                      "': free some space or change its permissions, or choose another one with --output or "
-                      "the parameter 'Output directory'.");
+                      "': change its permissions, or choose another one with --output or the parameter "
+                      "'Output directory'.");
   }
 
   /** Is there, besides results, what marks the output directory of a run? */
@@ -81,6 +93,15 @@ namespace
   /** Move what an earlier run wrote, so that it can be continued where it is then. */
   void move_earlier_results(const std::string &directory, const std::string &target)
   {
+    // It may be continued there at this moment.
+    std::unique_ptr<DirectoryLock> target_lock;
+    if (std::filesystem::is_directory(target))
+      target_lock = DirectoryLock::acquire(target);
+    if (is_unfinished_run(target))
+      throw UserError("Both '" + directory + "' and '" + target +
+                      "' hold a run that had not finished. Continue one of them with --resume, move or "
+                      "remove '" +
+                      target + "', or choose another directory with --output.");
     if (is_of_a_run(target))
       std::filesystem::remove_all(target);
     std::filesystem::create_directory(target);

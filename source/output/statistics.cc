@@ -152,7 +152,8 @@ void StatisticsWriter::start(const double resume_after_time)
     kept_rows = rows_up_to(earlier, resume_after_time);
     n_written = std::count(kept_rows.begin(), kept_rows.end(), '\n');
   }
-  replace_file(path, header_line() + '\n' + kept_rows);
+  // A checkpoint counts on these rows.
+  replace_file(path, header_line() + '\n' + kept_rows, /*durable =*/true);
   file.open(path, std::ios::app);
   file.precision(std::numeric_limits<double>::max_digits10);
   if (!file)

@@ -149,7 +149,7 @@ TEST_F(Resume, CheckpointsComeAfterTheGivenNumberOfStepsAndTheLastAreKept)
     std::ifstream file(kept[i] + "/metadata.txt");
     const std::string metadata(std::istreambuf_iterator<char>(file), {});
     EXPECT_NE(metadata.find(expected_steps[i]), std::string::npos) << metadata;
-    for (const char *name : {"schema_version = 4\n", "finished = ", "statistics_columns = ",
+    for (const char *name : {"schema_version = 5\n", "finished = ", "statistics_columns = ",
                              "git_revision = ", "libraries = deal.II 9", "p4est",
                              "command_line = ", "date = 20", "file parameters.prm = ", "file state.h5 = "})
       EXPECT_NE(metadata.find(name), std::string::npos) << name << " in\n" << metadata;
@@ -221,7 +221,7 @@ TEST_F(Resume, AFailureSavesTheLastAcceptedState)
   EXPECT_NE(first.err.find("'Smallest time step'"), std::string::npos) << first.err;
   const std::size_t n_accepted = n_rows(results());
   EXPECT_GT(n_accepted, 1u);
-  EXPECT_NE(log().find("its state in run/checkpoint/00001"), std::string::npos) << log();
+  EXPECT_NE(log().find("The state of that step is in run/checkpoint/00001"), std::string::npos) << log();
   ASSERT_EQ(complete_checkpoints().size(), 1u);
   const auto n_groups = [this]
   { return Gemmule::Hdf5File(results() + "/interface.h5", Gemmule::Hdf5File::Mode::read).members().size(); };
@@ -258,4 +258,12 @@ TEST_F(Resume, ProvenanceIsInTheLogAndInEveryHdf5File)
       EXPECT_EQ(parameters.find("Output directory"), std::string::npos) << "says nothing of this computer";
     }
   EXPECT_GE(n_files, 4u) << "interface.h5 and its copy, the fields, the state";
+
+  // What goes on with a file says so there.
+  for (const std::string end : {"0.003", "0.004"})
+    ASSERT_EQ(run_gemmule(directory, run("--resume --set 'End time=" + end + "'")).exit_code, 0);
+  const Gemmule::Hdf5File file(results() + "/interface.h5", Gemmule::Hdf5File::Mode::read);
+  EXPECT_NE(file.text_attribute("/", "resumed_001").find("t = 0.002, 2"), std::string::npos);
+  EXPECT_NE(file.text_attribute("/", "resumed_002").find("'End time=0.004'"), std::string::npos);
+  EXPECT_FALSE(file.has_attribute("/", "resumed_003"));
 }

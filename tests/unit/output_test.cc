@@ -191,7 +191,7 @@ TEST_F(ParallelOutputTest, DirectoryThatCannotBeCreated)
 TEST_F(OutputTest, DirectoryOnAFullDisk)
 {
   const FullDisk full_disk(4);
-  EXPECT_THROW(OutputDirectory(directory, MPI_COMM_SELF), UserError);
+  EXPECT_THROW(OutputDirectory(directory, MPI_COMM_SELF), SimulationError);
 }
 
 TEST_F(OutputTest, LogGoesToFileAndConsole)
