@@ -123,10 +123,9 @@ TEST_F(BadPermissions, UnwritableDirectory)
                         std::filesystem::perms::others_read | std::filesystem::perms::others_exec;
   std::filesystem::create_directory(directory.path / "locked");
   std::filesystem::permissions(directory.path / "locked", readable);
-  expect_message(
-      "case.prm --output locked",
-      "Cannot write to the output directory 'locked': free some space or change its permissions, or "
-      "choose another one with --output or the parameter 'Output directory'.");
+  expect_message("case.prm --output locked",
+                 "Cannot write to the output directory 'locked': change its permissions, or "
+                 "choose another one with --output or the parameter 'Output directory'.");
   expect_message(
       "case.prm --output locked/below",
       "Cannot create the output directory 'locked/below' (Permission denied): choose another one with "
