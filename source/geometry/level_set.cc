@@ -17,6 +17,16 @@ namespace
   // Cells within this many of their own sizes of the membrane get exact distances: those that the membrane
   // cuts now or can reach within a step, and their neighbours.
   constexpr double band_in_cells = 2.5;
+
+  /** Cells beside a larger one that the membrane cuts belong to the band as well. */
+  template <typename CellIterator>
+  bool has_coarser_neighbor(const CellIterator &cell)
+  {
+    for (const unsigned int face : cell->face_indices())
+      if (!cell->at_boundary(face) && cell->neighbor_is_coarser(face))
+        return true;
+    return false;
+  }
 } // namespace
 
 template <int dim>
@@ -80,7 +90,8 @@ void LevelSet<dim>::set_nodes(const MembraneProjection<dim> &membrane,
     const double h = cell->extent_in_direction(0);
     const Point<dim> center = cell->center();
     const auto &nearest = membrane.nearest(center);
-    const bool in_band = center.distance(nearest.point) < std::max(band_in_cells * h, least_width);
+    const double width = band_in_cells * (has_coarser_neighbor(cell) ? 2. * h : h);
+    const bool in_band = center.distance(nearest.point) < std::max(width, least_width);
     is_in_band[cell->active_cell_index()] = in_band;
     if (!in_band && far_nodes_are_set)
       continue;

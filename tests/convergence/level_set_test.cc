@@ -141,6 +141,37 @@ TEST(LevelSet, ReversedVortexIsThirdOrderInSpace)
   EXPECT_LT(fine.shape, 3e-5);
 }
 
+TEST(ParallelLevelSet, ABandHoldsTheCutCellsAndTheirNeighboursOnAnyMesh)
+{
+  // Cells of two sizes in a pattern that does not follow the circle, at many places.
+  for (unsigned int i = 0; i < 12; ++i)
+  {
+    parallel::distributed::Triangulation<2> triangulation(MPI_COMM_WORLD);
+    GridGenerator::hyper_cube(triangulation, -1., 1.);
+    triangulation.refine_global(4);
+    for (const auto &cell : triangulation.active_cell_iterators())
+      if (cell->is_locally_owned() &&
+          static_cast<int>(7. * (cell->center()[0] + 2.) + 3.3 * i * (cell->center()[1] + 2.)) % 2 == 0)
+        cell->set_refine_flag();
+    triangulation.execute_coarsening_and_refinement();
+    LevelSet<2> level_set(triangulation);
+    level_set.reinit_mesh();
+    level_set.interpolate(
+        Functions::SignedDistance::Sphere<2>(Point<2>(0.01 * i, 0.007 * i * i), 0.2 + 0.0173 * i));
+    CutGeometry<2> geometry;
+    geometry.reinit(level_set.get_dof_handler(), level_set.values());
+    const auto patches = gather_bare_patches(geometry, MPI_COMM_WORLD);
+    level_set.set_distance(MembraneProjection<2>(patches, Point<2>(-1., -1.)));
+    geometry.reinit(level_set.get_dof_handler(), level_set.values());
+    EXPECT_TRUE(level_set.is_accurate_around(geometry)) << i;
+    // A membrane four cells away is another matter.
+    level_set.interpolate(
+        Functions::SignedDistance::Sphere<2>(Point<2>(0.01 * i, 0.007 * i * i), 0.7 + 0.0173 * i));
+    geometry.reinit(level_set.get_dof_handler(), level_set.values());
+    EXPECT_FALSE(level_set.is_accurate_around(geometry)) << i;
+  }
+}
+
 TEST(ParallelLevelSet, RemeshingInEveryStepCostsNoAccuracy)
 {
   const Errors fixed = run(reversed_vortex, 5, 40), remeshed = run(reversed_vortex, 5, 40, true);
