@@ -25,7 +25,8 @@ class Run:
         self.directory = Path(directory) / re.sub(r"[^A-Za-z0-9.+-]+", "_", name)
         # The later setting wins, also the end that the comparison needs; the program takes each only once.
         chosen = {}
-        for setting in [*settings, f"End time={end_time!r}"]:
+        # Times of a case for which the comparison may end too early.
+        for setting in ["Output/Output times=", *settings, f"End time={end_time!r}"]:
             key, _, value = setting.partition("=")
             chosen[key.strip()] = value
         self.command = [str(executable), str(case)]

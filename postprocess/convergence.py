@@ -187,21 +187,29 @@ def parser():
 
 def study(options):
     measure = options.measure or ("level" if options.parameter.lower().endswith("level") else "value")
-    sizes = [MEASURES[measure](float(value)) for value in options.values]
-    if min(sizes) <= 0 or any(fine >= coarse for coarse, fine in zip(sizes, sizes[1:])):
-        raise ResultsError(
-            f"the values {', '.join(options.values)} do not get finer: --values needs the finest last, "
-            f"and --measure {measure} has to be right"
-        )
     studies.check_files(options)
     program = options.executable.resolve()
     runs = [
         varied(program, options.case, options.set, options.parameter, value, options.time, options.output)
         for value in options.values
     ]
+    for run in runs:
+        run.parameters()  # what is wrong with them is better known before the first one is computed
+    sizes = [MEASURES[measure](float(value)) for value in options.values]
+    if min(sizes) <= 0 or any(fine >= coarse for coarse, fine in zip(sizes, sizes[1:])):
+        raise ResultsError(
+            f"the values {', '.join(options.values)} do not get finer: --values needs the finest last, "
+            f"and --measure {measure} has to be right"
+        )
     studies.complete(runs, options)
 
-    table = compare(options.values, sizes, [State(run.directory, options.time) for run in runs])
+    states = [State(run.directory, options.time) for run in runs]
+    for value, finer, one, other in zip(options.values, options.values[1:], states, states[1:]):
+        if one.scalars == other.scalars and one.costs["steps"] == other.costs["steps"]:
+            raise ResultsError(
+                f"the runs with {options.parameter} = {value} and {finer} are the same: it changes nothing there"
+            )
+    table = compare(options.values, sizes, states)
     text = markdown(table, options.parameter, options.time)
     studies.write(
         options.output, "convergence", table, text, lambda: figure(table, options.parameter, options.time, measure)

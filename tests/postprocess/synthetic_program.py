@@ -16,7 +16,7 @@ import pandas as pd
 import synthetic_results
 
 arguments = sys.argv[2:]
-values = {{"Output directory": "", "End time": "1", "Fluid/Viscosity ratio": "1", "Mesh/Bulk level": "2",
+values = {{"Output directory": "", "End time": "1", "Output/Output times": "", "Fluid/Viscosity ratio": "1", "Mesh/Bulk level": "2",
            "Mesh/Membrane level": "3", "Mesh/Phase boundary level": "3", "Mesh/Finest level": "4",
            "Mesh/Curvature tolerance": "0.5", "Mesh/Cells per gap": "4", "Mesh/Cells per phase boundary": "0"}}
 while "--set" in arguments:

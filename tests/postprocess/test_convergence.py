@@ -189,6 +189,12 @@ class Study(unittest.TestCase):
             self.assertIn(part, finished.stderr)
         self.assertEqual(self.run_study(values="3,fine").returncode, 2)
 
+    def test_a_parameter_that_changes_nothing_is_named(self):
+        finished = self.run_study("--parameter", "Fluid/Viscosity ratio", values="3,2,1")
+        self.assertEqual(finished.returncode, 1)
+        self.assertIn("Fluid/Viscosity ratio = 3 and 2 are the same", finished.stderr)
+        self.assertFalse((self.output / "convergence.png").exists())
+
     def test_parameter_files_are_compared_without_their_comments(self):
         one = "set End time = 2 # default: 1\nsubsection A\n  subsection B\n    set c   = 3\n  end\nend\n"
         other = "# made later\nset End time=2\nsubsection A\n subsection B\n  set c = 3\n end\nend\n"
