@@ -42,14 +42,14 @@ namespace
 template <int dim>
 InitialMembrane<dim>::InitialMembrane(const AllParameters &parameters_, const MPI_Comm communicator_)
     : parameters(parameters_), communicator(communicator_),
-      shape(make_function<dim>(parameters.membrane.level_set, 1, "Membrane/Level set"))
+      shape(make_function<dim>(parameters.membrane.level_set, 1, "Membrane/Level set", false))
 {
   if (parameters.membrane.tension_model == Parameters::TensionModel::phase_field)
   {
-    concentration =
-        make_function<dim>(parameters.membrane.initial_concentration, 1, "Membrane/Initial concentration");
+    concentration = make_function<dim>(parameters.membrane.initial_concentration, 1,
+                                       "Membrane/Initial concentration", false);
     total_concentration = make_function<dim>(parameters.membrane.initial_total_concentration, 1,
-                                             "Membrane/Initial total concentration");
+                                             "Membrane/Initial total concentration", false);
   }
   else
     prescribed_tension =

@@ -1,6 +1,8 @@
 #include <gemmule/algebra/arrival.h>
 #include <gemmule/application/command_line.h>
 #include <gemmule/application/vesicle_problem.h>
+#include <gemmule/output/output_directory.h>
+#include <gemmule/output/rank_zero.h>
 #include <gemmule/parameters/all_parameters.h>
 #include <gemmule/parameters/errors.h>
 #include <gemmule/parameters/text.h>
@@ -12,6 +14,8 @@
 #include <limits>
 #include <new>
 #include <sstream>
+#include <string>
+#include <vector>
 
 namespace
 {
@@ -87,13 +91,15 @@ void say(const std::string &text)
 }
 
 template <int dim>
-int compute(const AllParameters &parameters, const CommandLine &command)
+int compute(const AllParameters &parameters, const CommandLine &command, std::vector<std::string> &warnings)
 {
   if (command.check)
   {
-    check_case<dim>(parameters, MPI_COMM_WORLD);
+    warnings = check_case<dim>(parameters, MPI_COMM_WORLD);
     return finished;
   }
+  if (!command.resume)
+    on_rank_zero(MPI_COMM_WORLD, [&] { refuse_to_replace(command.case_file, parameters.output_directory); });
   VesicleProblem<dim> problem(parameters, MPI_COMM_WORLD, command.invocation, command.resume);
   return problem.run();
 }
@@ -122,6 +128,7 @@ int main(int argc, char **argv)
     done = command.print_parameters || !command.information.empty();
     return finished;
   };
+  std::vector<std::string> warnings;
   int code = run_on_all(prepare, communicator);
   if (code == finished && !done)
   {
@@ -130,8 +137,8 @@ int main(int argc, char **argv)
         {
           try
           {
-            return parameters.dimension == 2 ? compute<2>(parameters, command)
-                                             : compute<3>(parameters, command);
+            return parameters.dimension == 2 ? compute<2>(parameters, command, warnings)
+                                             : compute<3>(parameters, command, warnings);
           }
           catch (const ParameterError &error)
           {
@@ -143,8 +150,11 @@ int main(int argc, char **argv)
       code = run_on_all(
           [&]() -> int
           {
+            std::string text;
+            for (const std::string &warning : warnings)
+              text += "warning: " + warning + "\n";
             if (speaks)
-              say(command.case_file + ": the parameters are valid.\n");
+              say(text + command.case_file + ": the parameters are valid.\n");
             return finished;
           },
           communicator);

@@ -18,11 +18,14 @@ namespace
 
   // The last two are ignored: a file or a pipe that takes no more is an error of that write, not the end. Who
   // presses Ctrl-C before `gemmule | tee log` ends tee first.
-  constexpr int signals[] = {SIGINT, SIGTERM, SIGUSR1, SIGXFSZ, SIGPIPE};
+  constexpr int signals[] = {SIGINT, SIGTERM, SIGUSR1, SIGHUP, SIGXFSZ, SIGPIPE};
 
   std::string name_of(const int signal)
   {
-    return signal == SIGINT ? "SIGINT" : signal == SIGTERM ? "SIGTERM" : "SIGUSR1";
+    return signal == SIGINT    ? "SIGINT"
+           : signal == SIGTERM ? "SIGTERM"
+           : signal == SIGHUP  ? "SIGHUP"
+                               : "SIGUSR1";
   }
 } // namespace
 
@@ -38,6 +41,9 @@ StopConditions::StopConditions(const double wall_time_limit, const MPI_Comm comm
     // Whatever the libraries are reading or writing goes on.
     action.sa_flags = SA_RESTART;
     sigaction(signals[i], &action, &before[i]);
+    // Who starts a run with nohup wants it to survive the terminal.
+    if (signals[i] == SIGHUP && before[i].sa_handler == SIG_IGN)
+      sigaction(signals[i], &before[i], nullptr);
   }
 }
 

@@ -17,6 +17,32 @@ namespace Gemmule
 {
 using namespace dealii;
 
+namespace
+{
+  /** What can be said against a case before its first step, although it can be computed. */
+  template <int dim>
+  std::vector<std::string> warnings_of(const CoupledSystem<dim> &system)
+  {
+    if (system.get_surface() == nullptr)
+      return {};
+    std::vector<std::string> warnings;
+    if (const auto warning = system.get_model().ill_posedness_warning())
+      warnings.push_back(*warning);
+    // A 10-90 % width of a phase boundary is 6.2 Cahn numbers.
+    constexpr double cahn_numbers_per_cell = 3.2;
+    const AllParameters &parameters = system.get_parameters();
+    const double size = parameters.domain.cell_size(parameters.mesh.phase_boundary_level),
+                 cahn_number = parameters.membrane.cahn_number;
+    if (size > cahn_numbers_per_cell * cahn_number && parameters.mesh.cells_per_phase_boundary == 0.)
+      warnings.push_back("the cells of 'Mesh/Phase boundary level' have edges of " + rounded(size) + ", " +
+                         rounded(size / cahn_number) +
+                         " times 'Membrane/Cahn number' = " + rounded(cahn_number) +
+                         ": about three times is the most that resolves phase boundaries. Raise the level, or set "
+                         "'Mesh/Cells per phase boundary' and 'Mesh/Finest level'.");
+    return warnings;
+  }
+} // namespace
+
 template <int dim>
 VesicleProblem<dim>::VesicleProblem(const AllParameters &parameters_, const MPI_Comm communicator_,
                                     const std::string &command_line_, const bool resume)
@@ -114,9 +140,8 @@ void VesicleProblem<dim>::announce() const
               (system->get_surface() != nullptr
                    ? ", " + std::to_string(system->get_surface()->n_unknowns()) + " of the phases"
                    : ""));
-  if (system->get_surface() != nullptr)
-    if (const auto warning = system->get_model().ill_posedness_warning())
-      log->warn(*warning);
+  for (const std::string &warning : warnings_of(*system))
+    log->warn(warning);
 }
 
 template <int dim>
@@ -151,13 +176,15 @@ int VesicleProblem<dim>::run()
 }
 
 template <int dim>
-void check_case(const AllParameters &parameters, const MPI_Comm communicator)
+std::vector<std::string> check_case(const AllParameters &parameters, const MPI_Comm communicator)
 {
-  CoupledSystem<dim>(parameters, communicator).initialise();
+  CoupledSystem<dim> system(parameters, communicator);
+  system.initialise();
+  return warnings_of(system);
 }
 
 template class VesicleProblem<2>;
-template void check_case<2>(const AllParameters &, MPI_Comm);
+template std::vector<std::string> check_case<2>(const AllParameters &, MPI_Comm);
 
 template <>
 VesicleProblem<3>::VesicleProblem(const AllParameters &, const MPI_Comm communicator, const std::string &,
@@ -176,8 +203,9 @@ int VesicleProblem<3>::run()
   return 1;
 }
 template <>
-void check_case<3>(const AllParameters &parameters, const MPI_Comm communicator)
+std::vector<std::string> check_case<3>(const AllParameters &parameters, const MPI_Comm communicator)
 {
   VesicleProblem<3>(parameters, communicator, "", false);
+  return {};
 }
 } // namespace Gemmule

@@ -113,6 +113,17 @@ namespace
   }
 } // namespace
 
+void refuse_to_replace(const std::string &case_file, const std::string &output_directory)
+{
+  const std::string directory = output_directory.empty() ? "." : output_directory;
+  std::error_code ignored;
+  if (!is_of_a_run(directory) &&
+      std::filesystem::equivalent(case_file, directory + "/parameters.prm", ignored))
+    throw UserError("The run would replace its own parameter file: it writes a listing of all parameters to "
+                    "parameters.prm in the output directory '" +
+                    directory + "'. Give the file another name, or choose another directory with --output.");
+}
+
 OutputDirectory::OutputDirectory(const std::string &path, const MPI_Comm &communicator, const bool resume,
                                  std::unique_ptr<DirectoryLock> given_lock)
     : directory(path.empty() ? "." : path), communicator(communicator), lock(std::move(given_lock))

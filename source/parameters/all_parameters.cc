@@ -61,12 +61,13 @@ namespace
     const std::string velocity = "Domain/Boundary velocity", level_set = "Membrane/Level set";
     check_finite(*make_function<dim>(p.domain.boundary_velocity, dim, velocity),
                  sample_points<dim>(p.domain, true), velocity);
-    check_finite(*make_function<dim>(p.membrane.level_set, 1, level_set), sample_points<dim>(p.domain, false),
-                 level_set);
+    check_finite(*make_function<dim>(p.membrane.level_set, 1, level_set, false),
+                 sample_points<dim>(p.domain, false), level_set);
     // These matter on the membrane only, and where that is is not known here.
     make_function<dim>(p.membrane.prescribed_tension, 1, "Membrane/Prescribed tension");
-    make_function<dim>(p.membrane.initial_concentration, 1, "Membrane/Initial concentration");
-    make_function<dim>(p.membrane.initial_total_concentration, 1, "Membrane/Initial total concentration");
+    make_function<dim>(p.membrane.initial_concentration, 1, "Membrane/Initial concentration", false);
+    make_function<dim>(p.membrane.initial_total_concentration, 1, "Membrane/Initial total concentration",
+                       false);
   }
 
   /** The box alone must not have more cells than the mesh may have. */

@@ -10,10 +10,11 @@ void Checkpoint::add_parameters(dealii::ParameterHandler &prm)
   Section section(prm, {"Checkpoint"});
   section.add("Steps between checkpoints", steps_between,
               "The state is saved after this many accepted time steps; 0: not by their number.");
-  section.add("Wall clock interval", wall_clock_interval,
-              "The state is saved when this much time has gone by since the last time (seconds of wall "
-              "clock); 0: not by the clock. It is always saved at the end, on a signal and when a step fails.",
-              Range::non_negative());
+  section.add(
+      "Wall clock interval", wall_clock_interval,
+      "The state is saved when this much time has gone by since the last time (seconds of wall "
+      "clock); 0: not by the clock. It is always saved at the end, on a signal and when a step fails.",
+      Range::non_negative());
   section.add(
       "Number of checkpoints kept", number_kept,
       "How many of the last checkpoints stay on disk. If the newest is damaged, --resume takes the one "

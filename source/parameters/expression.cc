@@ -66,24 +66,26 @@ namespace
   }
 
   template <int dim>
-  std::string example(const unsigned int n_components)
+  std::string example(const unsigned int n_components, const bool of_time)
   {
-    std::string text = "'x^2 + 2*y^2 - 0.25*cos(2*pi*t)";
+    std::string text = of_time ? "'x^2 + 2*y^2 - 0.25*cos(2*pi*t)" : "'x^2 + 2*y^2 - 0.25*cos(pi*x)";
     for (unsigned int i = 1; i < n_components; ++i)
       text += "; 0.5*y";
-    const std::string variables = dim == 2 ? "x, y and t" : "x, y, z and t";
+    const std::string variables =
+        dim == 2 ? (of_time ? "x, y and t" : "x and y") : (of_time ? "x, y, z and t" : "x, y and z");
     return " Write an expression in " + variables + ", for example " + text + "'.";
   }
 } // namespace
 
 template <int dim>
-std::unique_ptr<dealii::Function<dim>>
-make_function(const std::string &expression, const unsigned int n_components, const std::string &where)
+std::unique_ptr<dealii::Function<dim>> make_function(const std::string &expression,
+                                                     const unsigned int n_components,
+                                                     const std::string &where, const bool of_time)
 {
   const auto fail = [&](const std::string &reason)
   {
     throw ParameterError(where, "the expression " + Parameters::in_quotes(expression) + " " + reason +
-                                    example<dim>(n_components));
+                                    example<dim>(n_components, of_time));
   };
 
   // Not split_string_list(), which swallows an empty component at the end.
@@ -106,8 +108,9 @@ make_function(const std::string &expression, const unsigned int n_components, co
   try
   {
     const SilencedErrorStream silence;
-    const std::string variables = dealii::FunctionParser<dim>::default_variable_names() + ",t";
-    function->initialize(variables, expression, {{"pi", dealii::numbers::PI}}, true);
+    const std::string variables =
+        dealii::FunctionParser<dim>::default_variable_names() + (of_time ? ",t" : "");
+    function->initialize(variables, expression, {{"pi", dealii::numbers::PI}}, of_time);
     // The parser looks at the text only when it is first evaluated.
     for (unsigned int i = 0; i < n_components; ++i)
       function->value(dealii::Point<dim>(), i);
@@ -156,7 +159,7 @@ void check_finite(const dealii::Function<dim> &function, const std::vector<deali
 
 #define INSTANTIATE(dim)                                                                                     \
   template std::unique_ptr<dealii::Function<dim>> make_function<dim>(const std::string &, unsigned int,      \
-                                                                     const std::string &);                   \
+                                                                     const std::string &, bool);             \
   template std::string not_finite_complaint<dim>(const dealii::Function<dim> &,                              \
                                                  const std::vector<dealii::Point<dim>> &);                   \
   template void check_finite<dim>(const dealii::Function<dim> &, const std::vector<dealii::Point<dim>> &,    \

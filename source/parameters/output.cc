@@ -10,8 +10,7 @@ void Output::add_parameters(dealii::ParameterHandler &prm)
   Section section(prm, {"Output"});
   section.add("Field output interval", field_interval,
               "Simulated time between two outputs of velocity and pressure in the box (dimensionless time); "
-              "0: only at "
-              "'Output times'.",
+              "the last one is at the end. 0: only at 'Output times'.",
               Range::non_negative());
   section.add(
       "Interface output interval", interface_interval,
@@ -21,7 +20,10 @@ void Output::add_parameters(dealii::ParameterHandler &prm)
   section.add("Output times", output_times,
               "More times at which both are written (dimensionless time); the time steps hit them exactly.",
               Range::non_negative());
-  section.add("Progress line", progress, "Whether to print one line per time step.");
+  section.add(
+      "Progress line", progress,
+      "Whether to show how far the run is: on a terminal in one line that is rewritten, otherwise in a line "
+      "at most every ten seconds.");
 }
 
 void Output::check() const

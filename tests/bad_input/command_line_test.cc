@@ -42,13 +42,43 @@ TEST_F(CommandLine, PrintedParametersAreAValidCase)
 
 TEST_F(CommandLine, CheckAcceptsAndWritesNothing)
 {
-  directory.write("case.prm", "subsection Mesh\nset Membrane level = 4\nset Phase boundary level = 4\nend\n");
+  directory.write("case.prm", "subsection Mesh\nset Membrane level = 4\nset Phase boundary level = 4\nend\n"
+                              "subsection Membrane\nset Cahn number = 0.05\nend\n");
   const auto before = listing();
   const Result result = run_gemmule(directory, "case.prm --check");
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_EQ(result.out, "case.prm: the parameters are valid.\n");
   EXPECT_EQ(result.err, "");
   EXPECT_EQ(listing(), before);
+}
+
+TEST_F(CommandLine, CheckWarnsOfWhatCanBeComputedAndShouldNot)
+{
+  directory.write("case.prm", "subsection Mesh\nset Membrane level = 4\nset Phase boundary level = 4\nend\n");
+  const Result coarse = run_gemmule(directory, "case.prm --check");
+  EXPECT_EQ(coarse.exit_code, 0) << coarse.err;
+  EXPECT_NE(
+      coarse.out.find("warning: the cells of 'Mesh/Phase boundary level' have edges of 0.125, 6.25 times "
+                      "'Membrane/Cahn number' = 0.02"),
+      std::string::npos)
+      << coarse.out;
+  EXPECT_NE(coarse.out.find("case.prm: the parameters are valid.\n"), std::string::npos);
+  const Result ill_posed = run_gemmule(
+      directory, "case.prm --check --set 'Membrane/Regularisation of the total concentration/Model=none'");
+  EXPECT_NE(ill_posed.out.find("warning: The total concentration is ill-posed"), std::string::npos)
+      << ill_posed.out;
+}
+
+TEST_F(CommandLine, TheParameterFileOfTheUserIsNotReplaced)
+{
+  const std::string content =
+      "# by hand\nset End time = 1e-4\nsubsection Mesh\nset Membrane level = 4\nend\n";
+  directory.write("parameters.prm", content);
+  for (const std::string output : {"--output .", "--output ./", "--output ''$PWD"})
+    EXPECT_NE(message_of("parameters.prm " + output).find("would replace its own parameter file"),
+              std::string::npos)
+        << output;
+  EXPECT_EQ(directory.read("parameters.prm"), content);
 }
 
 TEST_F(CommandLine, CheckFindsTheSameMistakesAsARun)

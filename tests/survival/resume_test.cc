@@ -30,6 +30,8 @@ TEST_F(Resume, SignalsStopTheRunAndItContinuesBitwise)
   EXPECT_NE(log().find("resumed at t = "), std::string::npos) << log();
   ASSERT_EQ(stop_after(n_rows(results()) + 6, SIGUSR1, "--resume"), 3) << directory.read(".stderr");
   EXPECT_NE(log().find("stopped by signal SIGUSR1 at t = "), std::string::npos) << log();
+  ASSERT_EQ(stop_after(n_rows(results()) + 3, SIGHUP, "--resume"), 3) << directory.read(".stderr");
+  EXPECT_NE(log().find("stopped by signal SIGHUP at t = "), std::string::npos) << log();
   EXPECT_LT(n_rows(results()), n_rows(reference()));
   EXPECT_EQ(complete_checkpoints().size(), 2u) << "the last two are kept";
 

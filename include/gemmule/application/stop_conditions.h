@@ -9,7 +9,8 @@
 namespace Gemmule
 {
 /**
- * Why a run has to end before its time: SIGINT, SIGTERM or SIGUSR1 on any rank, or the limit of wall clock.
+ * Why a run has to end before its time: SIGINT, SIGTERM, SIGUSR1 or SIGHUP (unless that
+ * was ignored before, as nohup does) on any rank, or the limit of wall clock.
  * While an object lives, these signals do not end the program but are noted; a file that exceeds the user's
  * limit of size (SIGXFSZ) is an ordinary failure to write. At most one object at a time.
  */
@@ -26,7 +27,7 @@ public:
   std::string reason_to_stop() const;
 
 private:
-  static constexpr int n_signals = 5;
+  static constexpr int n_signals = 6;
   const double wall_time_limit;
   const MPI_Comm communicator;
   const dealii::Timer wall_clock;

@@ -112,8 +112,10 @@ private:
   double last_repair = -1.;    ///< time of the last repair of the membrane, tried or done; negative: never
 };
 
-/** Checks what needs more than the parameters themselves: the initial membrane. @throws UserError.
- * Collective. */
+/**
+ * Checks what needs more than the parameters themselves: the initial membrane. @throws UserError.
+ * @return warnings. Collective.
+ */
 template <int dim>
-void check_case(const AllParameters &parameters, MPI_Comm communicator);
+std::vector<std::string> check_case(const AllParameters &parameters, MPI_Comm communicator);
 } // namespace Gemmule

@@ -9,11 +9,18 @@
 namespace Gemmule
 {
 /**
+ * A run writes all its parameters to parameters.prm in its output directory. Where that is the file that a
+ * user has written, and no listing of an earlier run, nothing is done.
+ * @throws UserError then
+ */
+void refuse_to_replace(const std::string &case_file, const std::string &output_directory);
+
+/**
  * The directory of the results (design section 4). Construction creates it with its parents, checks that it
  * can be written to and, unless the run is resumed, removes what an earlier run left under the program's own
  * file names, so that nothing stale mixes with the new results. Other files stay. A run that can be
  * continued, because it has a checkpoint and has not finished, is not removed but moved to `earlier-run`,
- * whose last content gives way. As long as the object lives no other run can use the directory.
+ * unless that holds such a run already. As long as the object lives no other run can use the directory.
  */
 class OutputDirectory
 {

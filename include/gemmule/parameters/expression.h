@@ -22,11 +22,13 @@ namespace Gemmule
  * @param expression the text
  * @param n_components number of components that it has to have
  * @param where full name of the parameter, for messages, for example "Membrane/Level set"
+ * @param of_time whether t is known; an initial state has none
  * @throws ParameterError if the text cannot be parsed or has another number of components
  */
 template <int dim>
-std::unique_ptr<dealii::Function<dim, double>>
-make_function(const std::string &expression, unsigned int n_components, const std::string &where);
+std::unique_ptr<dealii::Function<dim, double>> make_function(const std::string &expression,
+                                                             unsigned int n_components,
+                                                             const std::string &where, bool of_time = true);
 
 /**
  * Evaluates all components of a function at the given points.
