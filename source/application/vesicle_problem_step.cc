@@ -18,6 +18,8 @@ namespace
   // steps are below so many times the smallest.
   constexpr unsigned int attempts_before_repair = 4;
   constexpr double small_steps = 100.;
+  // In initial steps.
+  constexpr double least_time_between_repairs = 0.1;
 } // namespace
 
 template <int dim>
@@ -72,8 +74,9 @@ bool VesicleProblem<dim>::repair_membrane(const double dt)
   if (!parameters.membrane.repair_unresolved_shapes ||
       (n_attempts < attempts_before_repair && dt > small_steps * options.smallest_step))
     return false;
-  // What has not helped for an initial step of time will not help.
-  if (control->time() < last_repair + options.initial_step || system->membrane_is_resolved())
+  // What has not helped for so long will not help.
+  if (control->time() < last_repair + least_time_between_repairs * options.initial_step ||
+      system->membrane_is_resolved())
     return false;
   last_repair = control->time();
   const std::string at = "at t = " + rounded(control->time());

@@ -5,6 +5,7 @@
 #include <deal.II/dofs/dof_tools.h>
 #include <deal.II/numerics/vector_tools_interpolate.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -18,13 +19,23 @@ namespace
   // cuts now or can reach within a step, and their neighbours.
   constexpr double band_in_cells = 2.5;
 
-  /** Cells beside a larger one that the membrane cuts belong to the band as well. */
-  template <typename CellIterator>
-  bool has_coarser_neighbor(const CellIterator &cell)
+  // A cell whose centre is farther away than this will not be cut after a step.
+  constexpr double reach_in_cells = 1.6;
+
+  /** Is the cell beside a larger one that the membrane may cut after the step? It belongs to the band then,
+   * however far that is in terms of its own size. */
+  template <int dim, typename CellIterator>
+  bool is_beside_larger_cut_cell(const CellIterator &cell, const MembraneProjection<dim> &membrane)
   {
     for (const unsigned int face : cell->face_indices())
       if (!cell->at_boundary(face) && cell->neighbor_is_coarser(face))
-        return true;
+      {
+        const auto neighbor = cell->neighbor(face);
+        const Point<dim> center = neighbor->center();
+        if (center.distance(membrane.nearest(center).point) <
+            reach_in_cells * neighbor->extent_in_direction(0))
+          return true;
+      }
     return false;
   }
 } // namespace
@@ -90,8 +101,10 @@ void LevelSet<dim>::set_nodes(const MembraneProjection<dim> &membrane,
     const double h = cell->extent_in_direction(0);
     const Point<dim> center = cell->center();
     const auto &nearest = membrane.nearest(center);
-    const double width = band_in_cells * (has_coarser_neighbor(cell) ? 2. * h : h);
-    const bool in_band = center.distance(nearest.point) < std::max(width, least_width);
+    const double distance = center.distance(nearest.point);
+    const bool in_band =
+        distance < std::max(band_in_cells * h, least_width) ||
+        (distance < 2. * band_in_cells * h && is_beside_larger_cut_cell<dim>(cell, membrane));
     is_in_band[cell->active_cell_index()] = in_band;
     if (!in_band && far_nodes_are_set)
       continue;
@@ -99,8 +112,8 @@ void LevelSet<dim>::set_nodes(const MembraneProjection<dim> &membrane,
     double side = 0.;
     if (!in_band)
     {
-      const double distance = membrane.approximate_distance(center);
-      side = sides == nullptr ? distance : sides->with_side(distance, center);
+      const double signed_distance = membrane.approximate_distance(center);
+      side = sides == nullptr ? signed_distance : sides->with_side(signed_distance, center);
     }
     cell->get_dof_indices(dofs);
     for (unsigned int i = 0; i < node_to_dof.size(); ++i)
@@ -224,23 +237,9 @@ void LevelSet<dim>::restore(const std::vector<LevelSetCell<dim>> &cells, const b
 template <int dim>
 bool LevelSet<dim>::is_accurate_around(const CutGeometry<dim> &geometry) const
 {
-  bool is_accurate = true;
-  const auto visit = [&](const auto &cell)
-  { is_accurate = is_accurate && is_in_band[cell->active_cell_index()]; };
-  for (const auto &cell : triangulation.active_cell_iterators())
-  {
-    if (!cell->is_locally_owned() || geometry.location(cell->active_cell_index()) != CellLocation::cut)
-      continue;
-    visit(cell);
-    for (const unsigned int face : cell->face_indices())
-      if (cell->at_boundary(face))
-        continue;
-      else if (!cell->neighbor(face)->has_children())
-        visit(cell->neighbor(face));
-      else
-        for (unsigned int part = 0; part < cell->face(face)->n_children(); ++part)
-          visit(cell->neighbor_child_on_subface(face, part));
-  }
+  const auto &cut_cells = geometry.cut_cells();
+  const bool is_accurate = std::all_of(cut_cells.begin(), cut_cells.end(),
+                                       [&](const auto &cell) { return is_in_band[cell.active_cell_index]; });
   return Utilities::MPI::min(static_cast<unsigned int>(is_accurate), triangulation.get_communicator()) > 0;
 }
 

@@ -173,6 +173,8 @@ void LevelSetFilter<dim>::sweep(Vector &phi, const std::vector<bool> &candidates
         continue; // done by the other one
       if (!is_cut[cell->active_cell_index()] && !is_cut[neighbor->active_cell_index()])
         continue;
+      if (!candidates[cell->active_cell_index()] || !candidates[neighbor->active_cell_index()])
+        continue; // there is no accurate value to compare with
       const CellValues here = read(cell, phi), there = read(neighbor, phi);
       const double size = cell->extent_in_direction(0);
       for (const Jump &jump : jumps[position_index(cell, face, neighbor)])

@@ -7,7 +7,8 @@ namespace Gemmule
 namespace
 {
   // The band of the level set reaches 2.5 cells from the membrane, and the cells that the membrane cuts after
-  // the step have to be in it with their neighbours: centres of up to 1.5 cells from the membrane.
+  // the step have to be in it, with most of their neighbours: centres of up to 0.7 and 1.8 cells from the
+  // membrane.
   constexpr double largest_displacement = 0.8;
 } // namespace
 

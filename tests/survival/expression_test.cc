@@ -75,7 +75,8 @@ protected:
     EXPECT_NE(result.out.find("stopped at t = 0.04 after 6 steps: command line: " + expression.parameter),
               std::string::npos)
         << result.out;
-    EXPECT_NE(result.out.find("its state in run/checkpoint/"), std::string::npos) << result.out;
+    EXPECT_NE(result.out.find("The state of that step is in run/checkpoint/"), std::string::npos)
+        << result.out;
     const auto times = read_text_table(directory.file("run/statistics.csv")).at("time");
     EXPECT_DOUBLE_EQ(std::stod(times.back()), 0.04);
   }

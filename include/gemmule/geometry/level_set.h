@@ -79,8 +79,8 @@ public:
   void restore(const std::vector<LevelSetCell<dim>> &cells, bool set_everywhere);
 
   /**
-   * Are all cells that the membrane cuts and their neighbours in the band of the last step? Elsewhere phi is
-   * not that of this membrane, but for its sign. Collective.
+   * Are all cells that the membrane cuts in the band of the last step? Elsewhere phi is not that of this
+   * membrane, but for its sign. Collective.
    */
   bool is_accurate_around(const CutGeometry<dim> &geometry) const;
 
