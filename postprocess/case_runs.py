@@ -6,6 +6,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+from postprocess.file_reading import read_text
 from postprocess.results import Results, ResultsError
 
 SAME_TIME = 1e-9
@@ -36,13 +37,16 @@ class Run:
 
     def is_finished(self):
         """Do results with just these parameters exist, up to the end?"""
-        parameters = self.directory / "parameters.prm"
-        if not parameters.is_file() or entries(parameters.read_text()) != self.parameters():
+        try:
+            written = entries(read_text(self.directory / "parameters.prm"))
+        except ResultsError:
+            return False
+        if written != self.parameters():
             return False
         try:
             results = Results(self.directory)
             last_times = results.statistics().time.iloc[-1], results.interface_times()[-1]
-        except (ResultsError, OSError):
+        except ResultsError:
             return False
         return all(abs(time - self.end_time) <= SAME_TIME * max(1.0, self.end_time) for time in last_times)
 
@@ -59,7 +63,7 @@ class Run:
                 self.command, stdout=log, stderr=subprocess.STDOUT, env={**os.environ, **threads}
             )
         if finished.returncode != 0:
-            tail = (self.directory / "run.log").read_text().strip().splitlines()[-3:]
+            tail = read_text(self.directory / "run.log").strip().splitlines()[-3:]
             raise ResultsError(
                 f"the run with {self.title} ended with code {finished.returncode}: "
                 + " / ".join(tail)
@@ -82,17 +86,17 @@ class Run:
 
 
 def entries(text):
-    """Section/key -> value of a parameter file, without its comments."""
+    """Section/key -> value of a parameter file, without its comments. What makes no sense there is passed over."""
     result, sections = {}, []
     for line in text.splitlines():
         words = line.split("#")[0].split(maxsplit=1)
         if not words:
             continue
         if words[0] == "subsection":
-            sections.append(words[1].strip())
+            sections.append(words[-1].strip())
         elif words[0] == "end":
-            sections.pop()
-        elif words[0] == "set":
+            del sections[-1:]
+        elif words[0] == "set" and len(words) > 1:
             name, _, value = words[1].partition("=")
             result["/".join([*sections, name.strip()])] = value.strip()
     return result

@@ -1,5 +1,6 @@
 """The mathematics of the convergence study on curves and errors that are known, and the study with a made-up program."""
 
+import os
 import subprocess
 import sys
 import tempfile
@@ -14,7 +15,8 @@ import synthetic_program
 TOP = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(TOP))
 
-from postprocess.case_runs import entries  # noqa: E402
+from postprocess.case_runs import entries, varied  # noqa: E402
+from postprocess.convergence import State  # noqa: E402
 from postprocess.curves import Curve, PeriodicSpline, closed_curves  # noqa: E402
 from postprocess.observed_order import observed_order, orders  # noqa: E402
 
@@ -176,6 +178,48 @@ class Study(unittest.TestCase):
         self.assertEqual(self.n_computed(), 7)
         self.assertEqual(self.run_study("--set", "Fluid/Viscosity ratio=7", "--fresh", values="3,4").returncode, 0)
         self.assertEqual(self.n_computed(), 9)
+
+    def test_runs_whose_files_are_damaged_are_computed_again(self):
+        settings = (self.program, self.folder / "case.prm", [], "Mesh/Membrane level", "3", 0.5, self.output)
+        run = varied(*settings)
+        self.assertFalse(run.is_finished())
+        run.complete()
+        self.assertTrue(run.is_finished())
+        whole = {path: path.read_bytes() for path in run.directory.iterdir()}
+        for name, content in (
+            ("parameters.prm", None),
+            ("parameters.prm", b""),
+            ("parameters.prm", b"end\nset\nsubsection\n\xff\xfe\nset =\nend\nend\n"),
+            ("statistics.csv", None),
+            ("statistics.csv", whole[run.directory / "statistics.csv"][:-1]),
+            ("statistics.csv", b"\xff\xfe\0\n\n"),
+            ("interface.h5", None),
+            ("interface.h5", b""),
+            ("interface.h5", whole[run.directory / "interface.h5"][:3000]),
+        ):
+            with self.subTest(name=name, content=content and content[:9]):
+                path = run.directory / name
+                path.unlink()
+                if content is None:
+                    path.mkdir()
+                else:
+                    path.write_bytes(content)
+                    os.utime(path, (1e9, 1e9))
+                self.assertFalse(run.is_finished())
+                if content is None:
+                    path.rmdir()
+                path.write_bytes(whole[path])
+        (run.directory / "log.txt").write_bytes(b"\xff 1e+-. s CPU (")
+        self.assertTrue(run.is_finished())
+        self.assertTrue(np.isnan(State(run.directory, 0.5).costs["cpu_time"]))
+
+    def test_what_cannot_be_saved_is_named(self):
+        self.assertEqual(self.run_study(values="3,4").returncode, 0)
+        (self.output / "convergence.png").unlink()
+        (self.output / "convergence.png").mkdir()
+        finished = self.run_study(values="3,4")
+        self.assertEqual(finished.returncode, 1)
+        self.assertIn("error: the results cannot be saved in", finished.stderr.splitlines()[-1])
 
     def test_mistakes_are_named(self):
         for arguments, values, part in (
