@@ -8,6 +8,8 @@ if not __package__:  # started by the name of the folder
 
 try:
     from postprocess.command_line import main
+
+    status = main()
 except ModuleNotFoundError as error:
     sys.exit(
         f"error: the Python package '{error.name}' is missing for {sys.executable}. "
@@ -15,4 +17,4 @@ except ModuleNotFoundError as error:
         "then use /usr/bin/python3."
     )
 
-sys.exit(main())
+sys.exit(status)

@@ -1,19 +1,25 @@
 """Command line: which results, where to, which times."""
 
 import argparse
+import math
+import os
 import sys
 from pathlib import Path
 
+from postprocess.pictures import Pictures
 from postprocess.results import Results, ResultsError
 
 
 def parse_times(text):
     try:
-        return [float(item) for item in text.split(",")]
+        times = [float(item) for item in text.split(",")]
     except ValueError:
+        times = [math.nan]
+    if not all(map(math.isfinite, times)):
         raise argparse.ArgumentTypeError(
             f"'{text}' is not a list of numbers separated by commas, such as 0,0.2,1"
         )
+    return times
 
 
 def parser():
@@ -36,33 +42,26 @@ def parser():
 def main(arguments=None):
     options = parser().parse_args(arguments)
     try:
-        for picture in draw(options):
-            print(picture)
+        pictures = Pictures(Results(options.results), options.output or options.results, options.times)
+        drawn = 0
+        for picture in pictures.draw():
+            say(picture)
+            drawn += 1
     except (ResultsError, OSError) as error:
         print(f"error: {error}", file=sys.stderr)
         return 1
+    note = pictures.note()
+    if drawn == 0:
+        print(f"error: nothing can be drawn of '{options.results}': {note}", file=sys.stderr)
+        return 1
+    if note:
+        print(f"note: {note}", file=sys.stderr)
     return 0
 
 
-def draw(options):
-    """Draw everything that the results allow; the paths of the pictures, as they get ready."""
-    import matplotlib
-
-    matplotlib.use("Agg")
-    from postprocess import mesh, snapshots, style, time_series
-
-    results = Results(options.results)
-    statistics = results.statistics()
-    folder = options.output or options.results
-    folder.mkdir(parents=True, exist_ok=True)
-    style.apply()
-
-    yield style.save(time_series.figure(statistics), folder / "timeseries.png")
-    if results.has_interface():
-        yield style.save(snapshots.figure(results, options.times), folder / "snapshots.png")
-    else:
-        print(f"note: no {results.interface_path}, so no snapshots.png", file=sys.stderr)
-    if results.solution_times():
-        yield style.save(mesh.figure(results, options.times), folder / "mesh.png")
-    else:
-        print("note: no solution-NNNNN.h5 in the results, so no mesh.png", file=sys.stderr)
+def say(path):
+    """Print a path; that nobody listens is no reason to stop."""
+    try:
+        print(os.fsencode(path).decode(errors="replace"), flush=True)
+    except OSError:
+        sys.stdout = open(os.devnull, "w")

@@ -133,12 +133,9 @@ def markdown(table, key, time, reference="the last run"):
 
 
 def figure(table, key, time, measure):
-    import matplotlib.pyplot as plt
-
     from postprocess import style
 
-    style.apply()
-    result, axis = plt.subplots(figsize=(5.2, 4.2), layout="constrained")
+    result, axis = style.subplots(figsize=(5.2, 4.2))
     sizes = table["size"].to_numpy()[:-1]
     largest = []
     for name, marker in zip(QUANTITIES, "os^Dvx+*<>"):

@@ -1,10 +1,11 @@
 """mesh.png: the cells of the last output, or those around the membrane at several times, with the membrane."""
 
-import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.collections import PolyCollection
 
-from postprocess import membrane, snapshots
+from postprocess import membrane, snapshots, style
+from postprocess.errors import ResultsError
+from postprocess.selection import choose, read_chosen
 
 MOST_COLUMNS = 3
 FLAT = 0.6  # height over width of a window below which panels are stacked
@@ -12,39 +13,51 @@ FLAT = 0.6  # height over width of a window below which panels are stacked
 
 def figure(results, times=None):
     """Without times the whole box at the last output; else a panel for each, of the part where the membrane is."""
-    available = np.array(results.solution_times())
-    chosen = available[-1:] if times is None else snapshots.choose(available, times)
-    solutions = [results.solution(time) for time in chosen]
-    interfaces = [results.interface(time) if results.has_interface() else None for time in chosen]
+    if not results.solution_times():
+        raise ResultsError(f"there is no solution-NNNNN.h5 that can be read in '{results.directory}'")
+    solutions = read_chosen(
+        results.solution_times(),
+        lambda available: available[-1:] if times is None else choose(available, times),
+        results.solution,
+    )
+    interfaces = [membrane_at(results, solution.time) for solution in solutions]
+    membranes = [interface for interface in interfaces if interface is not None]
 
-    if times is None or not results.has_interface():
+    if times is None or not membranes:
         nodes = solutions[-1].nodes
         window = np.column_stack([nodes.min(axis=0), nodes.max(axis=0)]).ravel()
     else:
-        window = np.array(snapshots.common_window(interfaces))
+        window = np.array(snapshots.common_window(membranes))
     ratio = (window[3] - window[2]) / (window[1] - window[0])
-    columns = min(MOST_COLUMNS if ratio > FLAT else 1, len(chosen))
-    rows = -(-len(chosen) // columns)
+    columns = min(MOST_COLUMNS if ratio > FLAT else 1, len(solutions))
+    rows = -(-len(solutions) // columns)
     size = 5.6 if columns == 1 else 3.4
     height = size * min(1.0, ratio) + (0.4 if columns == 1 else 0.2)
-    result, axes = plt.subplots(
+    result, axes = style.subplots(
         rows,
         columns,
         figsize=(size * columns, max(height, 2.2) * rows),
         sharex=True,
         sharey=True,
         squeeze=False,
-        layout="constrained",
     )
     for axis, solution, interface in zip(axes.flat, solutions, interfaces):
         draw(axis, solution, interface, window)
-    for axis in axes.flat[len(chosen) :]:
+    for axis in axes.flat[len(solutions) :]:
         axis.set_visible(False)
     for row in axes:
         row[0].set_ylabel("$y$")
     for place in range(columns):
-        axes[(len(chosen) - 1 - place) // columns, place].set_xlabel("$x$")
+        axes[(len(solutions) - 1 - place) // columns, place].set_xlabel("$x$")
     return result
+
+
+def membrane_at(results, time):
+    """The membrane, or None: the cells can be drawn without."""
+    try:
+        return snapshots.planar(results, time)
+    except ResultsError:
+        return None
 
 
 def draw(axis, solution, interface, window):

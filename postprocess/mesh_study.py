@@ -152,18 +152,15 @@ def factor_of_unknowns(adaptive, uniform, quantity):
 
 
 def figure(all_series, all_tables, time):
-    import matplotlib.pyplot as plt
-
     from postprocess import style
 
-    style.apply()
     shown = [name for name in QUANTITIES if any(np.any(table[f"{name}_difference"] > 0) for table in all_tables)]
     if not shown:
         raise ResultsError("all runs give the same results: there is no error to draw")
     columns = min(5, len(shown))
     blocks = -(-len(shown) // columns)
-    result, axes = plt.subplots(
-        2 * blocks, columns, figsize=(2.3 * columns + 0.4, 4.2 * blocks), squeeze=False, layout="constrained"
+    result, axes = style.subplots(
+        2 * blocks, columns, figsize=(2.3 * columns + 0.4, 4.2 * blocks), squeeze=False
     )
     for axis in axes.flat:
         axis.set_visible(False)

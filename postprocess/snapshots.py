@@ -1,31 +1,30 @@
 """snapshots.png: the membrane at several times, coloured by its composition, over streamlines."""
 
-import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib import cm, colors
 
 from postprocess import membrane, streamlines, style
-
-MOST_SNAPSHOTS = 8
+from postprocess.errors import ResultsError
+from postprocess.selection import choose, read_chosen
 
 
 def figure(results, times=None):
-    chosen = choose(results.interface_times(), times)
-    interfaces = [results.interface(time) for time in chosen]
+    interfaces = read_chosen(
+        results.interface_times(), lambda available: choose(available, times), lambda time: planar(results, time)
+    )
     window = common_window(interfaces)
 
     columns = min(4, len(interfaces))
     rows = -(-len(interfaces) // columns)
     height_of_one = (window[3] - window[2]) / (window[1] - window[0])
     width = 1.95
-    result, axes = plt.subplots(
+    result, axes = style.subplots(
         rows,
         columns,
         figsize=(width * columns + 1.1, (width * height_of_one + 0.25) * rows + 0.45),
         sharex=True,
         sharey=True,
         squeeze=False,
-        layout="constrained",
     )
     for axis, interface in zip(axes.flat, interfaces):
         draw(axis, results, interface, window)
@@ -44,14 +43,14 @@ def figure(results, times=None):
     return result
 
 
-def choose(available, wanted):
-    """Of the times available: those nearest to the wanted ones, or up to 8 spread evenly in time."""
-    if wanted is None:
-        if len(available) <= MOST_SNAPSHOTS:
-            return available
-        wanted = np.linspace(available[0], available[-1], MOST_SNAPSHOTS)
-    nearest = {int(np.abs(available - time).argmin()) for time in wanted}
-    return available[sorted(nearest)]
+def planar(results, time):
+    """The membrane at a time, in two dimensions and with points."""
+    interface = results.interface(time)
+    if interface.points.shape[1] != 2:
+        raise ResultsError(f"{results.interface_path} is three-dimensional: use ParaView with interface.xdmf")
+    if len(interface.points) == 0:
+        raise ResultsError(f"{results.interface_path} has no points of the membrane")
+    return interface
 
 
 def common_window(interfaces):
@@ -63,10 +62,8 @@ def common_window(interfaces):
 
 
 def draw(axis, results, interface, window):
-    solution = results.solution(interface.time)
-    # The flow of another time may be another one altogether.
-    is_of_this_time = solution is not None and abs(solution.time - interface.time) <= 1e-6 * max(1.0, interface.time)
-    if is_of_this_time and "velocity" in solution.fields:
+    solution = flow_at(results, interface.time)
+    if solution is not None:
         streamlines.draw(axis, solution, window)
     membrane.draw(axis, interface)
     axis.set_xlim(window[:2])
@@ -74,3 +71,16 @@ def draw(axis, results, interface, window):
     axis.set_aspect("equal")
     axis.locator_params(nbins=4)
     axis.set_title(f"$t = {interface.time:.4g}$")
+
+
+def flow_at(results, time):
+    """The fields at just this time, or None: the flow of another time may be another one altogether."""
+    limit = 1e-6 * max(1.0, abs(time))
+    if not any(abs(other - time) <= limit for other in results.solution_times()):
+        return None
+    try:
+        solution = results.solution(time)
+    except ResultsError:  # the membrane can be drawn without
+        return None
+    velocity = solution.fields.get("velocity", np.empty(0))
+    return solution if velocity.ndim == 2 and velocity.shape[1] >= 2 else None

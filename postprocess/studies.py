@@ -4,6 +4,7 @@ import sys
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
+from postprocess import matplotlib_loading
 from postprocess.results import ResultsError
 
 
@@ -32,22 +33,26 @@ def complete(runs, options):
 
 
 def write(directory, name, table, text, figure):
-    """Write `name`.csv, .md and .png; `figure` is called to make the picture."""
-    table.to_csv(directory / f"{name}.csv", index=False)
-    (directory / f"{name}.md").write_text(text)
-
-    import matplotlib
-
-    matplotlib.use("Agg")
+    """Write `name`.csv, .md and .png; `figure` is called to make the picture. Raises ResultsError."""
     from postprocess import style
 
-    style.save(figure(), directory / f"{name}.png")
+    try:
+        table.to_csv(directory / f"{name}.csv", index=False)
+        (directory / f"{name}.md").write_text(text)
+        with style.applied():
+            style.save(figure(), directory / f"{name}.png")
+    except OSError as error:
+        raise ResultsError(f"the results cannot be saved in '{directory}': {error.strerror or error}") from error
 
 
 def main(study, options):
     """Print the text that `study` makes of the options, or what keeps it from that; the exit code."""
     try:
+        matplotlib_loading.load()  # before the runs: if it is missing they would be in vain
         print(study(options))
+    except ModuleNotFoundError as error:
+        print(f"error: the Python package '{error.name}' is missing for {sys.executable}", file=sys.stderr)
+        return 1
     except (ResultsError, OSError) as error:
         print(f"error: {error}", file=sys.stderr)
         return 1

@@ -1,8 +1,9 @@
 """timeseries.png: how the numbers of statistics.csv develop."""
 
-import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.ticker import MaxNLocator
+
+from postprocess import style
 
 ENERGIES = {
     "energy_total": "total",
@@ -14,17 +15,35 @@ ENERGIES = {
 
 
 def figure(statistics):
-    result, axes = plt.subplots(3, 2, figsize=(7.5, 7.2), sharex=True, layout="constrained")
+    statistics = statistics.replace([np.inf, -np.inf], np.nan)  # which no axis can show
+    result, axes = style.subplots(3, 2, figsize=(7.5, 7.2), sharex=True)
     panels = (centroid, arclength, energies, conservation, phase_boundaries, time_step)
     for axis, panel, letter in zip(axes.flat, panels, "abcdef"):
         panel(axis, statistics)
         axis.set_title(f"({letter})", loc="left")
         axis.spines[["top", "right"]].set_visible(False)
+        if len(statistics) == 1:
+            show_points(axis)
     for axis in axes[-1]:
         axis.set_xlabel("time $t$ (dimensionless)")
     if statistics.time.iloc[-1] > statistics.time.iloc[0]:
         axes[0, 0].set_xlim(statistics.time.iloc[0], statistics.time.iloc[-1])
     return result
+
+
+def show_points(axis):
+    """One row makes no line."""
+    for line in axis.get_lines():
+        line.set_marker("o")
+        line.set_markersize(3)
+    if axis.get_legend():
+        axis.legend()
+
+
+def first(values):
+    """The first one that is a number; nan if there is none."""
+    numbers = values.dropna()
+    return numbers.iloc[0] if len(numbers) > 0 else np.nan
 
 
 def centroid(axis, table):
@@ -44,7 +63,7 @@ def energies(axis, table):
     """Changes since the start: the energies themselves are large beside what they change by."""
     for number, (name, label) in enumerate(ENERGIES.items()):
         if name in table and (name == "energy_total" or np.any(table[name] != 0.0)):
-            change = table[name] - table[name].iloc[0]
+            change = table[name] - first(table[name])
             axis.plot(table.time, change, "-" if number == 0 else "--", label=label)
     axis.set_ylabel("energy $E - E(0)$")
     axis.legend(ncols=2)
@@ -54,8 +73,8 @@ def conservation(axis, table):
     """Relative deviations from the first row, on a logarithmic axis; what is exact lies on the floor."""
     floor = 1e-16
     for name, label in (("mass_f", r"$\int f$"), ("mass_total", r"$\int \bar f$"), ("area", "area")):
-        if name in table and table[name].iloc[0] != 0.0:
-            error = np.abs(table[name] / table[name].iloc[0] - 1.0)
+        if name in table and first(table[name]) != 0.0:
+            error = np.abs(table[name] / first(table[name]) - 1.0)
             axis.plot(table.time, np.maximum(error, floor), label=label)
     axis.set_yscale("log")
     lower, upper = axis.get_ylim()
