@@ -42,7 +42,13 @@ def parser():
 def main(arguments=None):
     options = parser().parse_args(arguments)
     try:
-        pictures = Pictures(Results(options.results), options.output or options.results, options.times)
+        results = Results(options.results)
+        if not results.exist():
+            raise ResultsError(
+                f"there is neither statistics.csv nor interface.h5 in '{options.results}': "
+                "give the output directory of a run"
+            )
+        pictures = Pictures(results, options.output or options.results, options.times)
         drawn = 0
         for picture in pictures.draw():
             say(picture)

@@ -1,4 +1,4 @@
-"""What the program writes at one time: the membrane, the fields in the box. What is not as it has to be is a ValueError."""
+"""The membrane and the fields in the box at one time, as the program writes them; what is not so is a ValueError."""
 
 from dataclasses import dataclass
 

@@ -34,7 +34,7 @@ class Results:
         """The table of statistics.csv: numbers, nan for what is none."""
         table, n_damaged = statistics_file.read(self.directory / "statistics.csv")
         if n_damaged > 0:
-            self.unreadable[f"{n_damaged} rows of statistics.csv"] = file_reading.DAMAGED
+            self.unreadable["rows of statistics.csv"] = f"{n_damaged} damaged"
         return table
 
     def cpu_time(self):
@@ -44,6 +44,11 @@ class Results:
             return float(found[-1]) if found else float("nan")
         except (ResultsError, ValueError):
             return float("nan")
+
+    def exist(self):
+        """Whether there is any file of a run, readable or not."""
+        paths = self.directory / "statistics.csv", self.interface_path
+        return bool(self._solution_times or self.unreadable) or any(map(os.path.lexists, paths))
 
     def has_interface(self):
         """Whether there is an interface.h5, readable or not."""

@@ -40,9 +40,11 @@ def applied():
     """
     While figures are made and saved: our settings and matplotlib's own defaults instead of those of a matplotlibrc, so
     that pictures are the same for everybody. What was set before is set again afterwards.
+
+    Warnings are about defaults that nobody has asked for, or about odd numbers, which the picture shows.
     """
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore", matplotlib.MatplotlibDeprecationWarning)  # of defaults nobody has asked for
+        warnings.simplefilter("ignore")
         defaults = {name: value for name, value in matplotlib.rcParamsDefault.items() if name != "backend"}
         with matplotlib.rc_context({**defaults, **SETTINGS}):
             yield

@@ -1,4 +1,4 @@
-"""A run that goes on until it is ended: python3 synthetic_run.py DIRECTORY. Writes its files in the way of the program."""
+"""A run that goes on until it is ended: python3 synthetic_run.py DIRECTORY. Writes as the program does."""
 
 import os
 import sys

@@ -135,9 +135,8 @@ class Damaged(unittest.TestCase):
         for path in self.folder.glob("solution-*.h5"):
             cut(path, 0.5)
         age(self.folder)
-        self.assert_drawn(
-            Drawn(self.folder), PICTURES[:2], "no mesh.png (there is no solution-NNNNN.h5 that can be read in", NOT_WHOLE
-        )
+        part = "no mesh.png (there is no solution-NNNNN.h5 that can be read in"
+        self.assert_drawn(Drawn(self.folder), PICTURES[:2], part, NOT_WHOLE)
 
     def test_files_of_similar_names_are_none_of_the_results(self):
         (self.folder / "solution-copy.h5").write_text("mine")
@@ -215,7 +214,7 @@ class Damaged(unittest.TestCase):
                 path.write_text("\n".join([header, rows[0], row, *rows[1:]]) + "\n")
                 results = Results(self.folder)
                 self.assertEqual(list(results.statistics().time), [0.0, 1.0, 2.0])
-                self.assertEqual(results.unreadable, {"1 rows of statistics.csv": NOT_WHOLE})
+                self.assertEqual(results.unreadable, {"rows of statistics.csv": "1 damaged"})
 
     def test_text_and_what_is_no_number_make_gaps(self):
         path = self.folder / "statistics.csv"
@@ -260,7 +259,8 @@ class Damaged(unittest.TestCase):
                 with self.assertRaisesRegex(ResultsError, part):
                     Results(self.folder).statistics()
         path.unlink()
-        self.assert_drawn(Drawn(self.folder), PICTURES[1:], "note: no timeseries.png (", "statistics.csv cannot be read")
+        parts = "note: no timeseries.png (", "statistics.csv cannot be read"
+        self.assert_drawn(Drawn(self.folder), PICTURES[1:], *parts)
 
     # Everything.
 
@@ -273,11 +273,21 @@ class Damaged(unittest.TestCase):
         self.assertTrue(drawn.messages[0].startswith("error: nothing can be drawn of"), drawn.messages)
         self.assertEqual([path for path in self.folder.iterdir() if path.suffix == ".png"], [])
 
+    def test_a_directory_without_results(self):
+        for path in self.folder.iterdir():
+            path.unlink()
+        (self.folder / "log.txt").write_text("of something else")
+        drawn = Drawn(self.folder)
+        self.assertEqual((drawn.code, len(drawn.messages)), (1, 1))
+        self.assertIn("error: there is neither statistics.csv nor interface.h5 in", drawn.messages[0])
+        self.assertIn("give the output directory of a run", drawn.messages[0])
+
     def test_a_directory_that_is_none(self):
-        for path in (self.folder / "nowhere", self.folder / "statistics.csv", "x" * 300, "a\0b"):
+        for path in (self.folder / "nowhere", self.folder / "statistics.csv", "a\0b"):
             drawn = Drawn(path)
             self.assertEqual((drawn.code, len(drawn.messages)), (1, 1))
-            self.assertTrue(drawn.messages[0].startswith("error: the" if len(str(path)) == 300 else "error: there is no"))
+            self.assertIn("error: there is no directory", drawn.messages[0])
+        self.assertIn("cannot be read: File name too long", Drawn("x" * 300).messages[0])
 
     def test_whatever_is_left_of_the_files_only_results_errors_are_raised(self):
         random = np.random.default_rng(1)

@@ -67,7 +67,8 @@ class Saving(unittest.TestCase):
                 drawn = Drawn(self.results, "--output", self.folder)
             self.assertEqual((drawn.code, drawn.pictures), (0, ("timeseries.png", "mesh.png")))
             self.assertEqual(len(drawn.messages), 1)
-            self.assertIn(f"no snapshots.png (it cannot be drawn of these results, {type(error).__name__}", drawn.messages[0])
+            reason = f"it cannot be drawn of these results, {type(error).__name__}"
+            self.assertIn(f"no snapshots.png ({reason}", drawn.messages[0])
 
     def test_nobody_has_to_read_what_is_printed(self):
         for output in ("/dev/full", None):
