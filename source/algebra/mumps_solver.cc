@@ -41,7 +41,8 @@ struct MumpsSolver::Instance
     {
     case singular:
       throw SimulationError(
-          "The direct solver MUMPS finds the matrix singular: the mesh does not resolve the membrane.");
+          "The direct solver MUMPS finds the matrix singular: the mesh does not resolve the membrane. Refine "
+          "it with a higher 'Mesh/Membrane level'.");
     case allocation_failed:
     case memory_limit:
       throw SimulationError(

@@ -54,7 +54,7 @@ void CoupledSystem<dim>::check_refined_band() const
   for (const auto &cell : geometry.cut_cells())
     largest = std::max(largest, cell.size);
   if (Utilities::MPI::max(largest, communicator) > allowed)
-    throw SimulationError("The membrane has left the refined cells around it: the step is too long.");
+    throw StepBreakdown("The membrane has left the refined cells around it: the step is too long.");
 }
 
 template <int dim>
@@ -152,11 +152,11 @@ void CoupledSystem<dim>::cut_mesh(const bool keep_area)
   {
     const double excess = geometry.enclosed_volume() - area_0;
     if (geometry.measure() == 0.)
-      throw SimulationError("The membrane has vanished: no cell of the mesh is cut by it any more.");
+      throw StepBreakdown("The membrane has vanished: no cell of the mesh is cut by it any more.");
     if (std::abs(excess) < area_tolerance * area_0)
       break;
     if (std::abs(excess) > largest_area_error * area_0)
-      throw SimulationError(
+      throw StepBreakdown(
           "The enclosed area changes by more than 5 % in one time step: the step is too long.");
     const double shift = excess / geometry.measure();
     level_set.shift(shift);
@@ -166,7 +166,7 @@ void CoupledSystem<dim>::cut_mesh(const bool keep_area)
   if (last_area_correction == 0.)
     return;
   if (std::abs(geometry.enclosed_volume() - area_0) > largest_remaining_area_error * area_0)
-    throw SimulationError("The enclosed area cannot be made that of the beginning: the step is too long.");
+    throw StepBreakdown("The enclosed area cannot be made that of the beginning: the step is too long.");
   check_wall();
   check_refined_band();
 }

@@ -33,7 +33,7 @@ void CoupledSystem<dim>::move_level_set(const MembraneMotion<dim> &motion)
   {
     cut_mesh(true);
     if (!level_set.is_accurate_around(geometry))
-      throw SimulationError("The membrane moves by more than a cell in one time step: the step is too long.");
+      throw StepBreakdown("The membrane moves by more than a cell in one time step: the step is too long.");
   }
   catch (const SimulationError &)
   {

@@ -90,7 +90,7 @@ StepErrors estimate_step_errors(const CutGeometry<dim> &geometry, const StokesSo
       }
     }
   if (Utilities::MPI::min(static_cast<unsigned int>(finite), communicator) == 0)
-    throw SimulationError("the solution is not a finite number.");
+    throw StepBreakdown("the solution is not a finite number.");
   errors.shape = Utilities::MPI::max(errors.shape, communicator);
   errors.composition = Utilities::MPI::max(errors.composition, communicator);
   return errors;

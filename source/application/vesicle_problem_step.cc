@@ -31,9 +31,8 @@ std::string VesicleProblem<dim>::make_step()
   }
   catch (const SimulationError &error)
   {
-    const std::string reason = error.what() + end_of_the_model();
-    save_last_state(reason);
-    throw SimulationError(reason);
+    save_last_state(error.what());
+    throw;
   }
   catch (const ParameterError &error)
   {
@@ -123,7 +122,7 @@ std::string VesicleProblem<dim>::attempt_step()
     }
     catch (const SimulationError &error)
     {
-      fail_step(dt, error.what());
+      fail_step(dt, error);
       continue;
     }
     if (accept_step(dt))
@@ -132,13 +131,19 @@ std::string VesicleProblem<dim>::attempt_step()
 }
 
 template <int dim>
-void VesicleProblem<dim>::fail_step(const double dt, const std::string &reason)
+void VesicleProblem<dim>::fail_step(const double dt, const SimulationError &error)
 {
+  const std::string reason = error.what();
   ++n_rejected;
   ++n_attempts;
   if (repair_membrane(dt))
     return;
-  control->fail(reason);
+  // A wall, say, or a lack of memory has a remedy of its own.
+  const bool is_breakdown = dynamic_cast<const StepBreakdown *>(&error) != nullptr;
+  control->fail(reason, is_breakdown ? "Refine the mesh, or allow shorter steps with 'Time stepping/Smallest "
+                                       "time step'." +
+                                           end_of_the_model()
+                                     : "");
   log->info("step " + std::to_string(row.step + 1) + " at t = " + rounded(control->time()) +
             ", dt = " + rounded(dt) + " failed and is repeated with half the size: " + reason);
 }
@@ -152,14 +157,14 @@ bool VesicleProblem<dim>::accept_step(const double dt)
   {
     is_good = control->judge(std::max(error_shape, error_composition) / tolerance, system->mesh_is_new());
   }
-  catch (const SimulationError &)
+  catch (const SimulationError &error)
   {
     // It already had the smallest size.
     ++n_rejected;
     ++n_attempts;
     if (repair_membrane(dt))
       return false;
-    throw;
+    throw SimulationError(error.what() + end_of_the_model());
   }
   if (is_good)
   {

@@ -164,7 +164,7 @@ void CutGeometry<dim>::reinit(const DoFHandler<dim> &dof_handler, const Vector &
   }
   const MPI_Comm communicator = dof_handler.get_communicator();
   if (Utilities::MPI::min(static_cast<int>(is_resolved), communicator) == 0)
-    throw SimulationError("The membrane is torn: its shape within a cell cannot be resolved.");
+    throw StepBreakdown("The membrane is torn: its shape within a cell cannot be resolved.");
   total_measure = Utilities::MPI::sum(local_measure, communicator);
   total_enclosed_volume = Utilities::MPI::sum(local_volume, communicator);
 }

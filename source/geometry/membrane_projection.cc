@@ -91,7 +91,7 @@ MembraneProjection<dim>::MembraneProjection(const std::vector<MembranePatch<dim>
     : patches(patches_), origin(origin_), patch_map(origin_)
 {
   if (patches.empty())
-    throw SimulationError("The membrane has vanished: no cell of the mesh is cut by it any more.");
+    throw StepBreakdown("The membrane has vanished: no cell of the mesh is cut by it any more.");
 
   for (const auto &patch : patches)
     bin_size = std::max(bin_size, patch.size);
@@ -115,7 +115,7 @@ MembraneProjection<dim>::MembraneProjection(const std::vector<MembranePatch<dim>
       primary_samples.push_back(first);
   }
   if (all_samples.empty())
-    throw SimulationError("The membrane has degenerated: no point of it could be found in the cut cells.");
+    throw StepBreakdown("The membrane has degenerated: no point of it could be found in the cut cells.");
 
   for (unsigned int i = 0; i < all_samples.size(); ++i)
     bins[bin_of(all_samples[i].point)].push_back(i);

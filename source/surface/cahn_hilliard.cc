@@ -186,9 +186,9 @@ void CahnHilliard<dim>::advance(const TraceSpace<dim> &space, const SurfaceStep<
     matrix_is_good = error < 0.1 * (n_iterations == 1 ? 0.01 * magnitude : last_error);
     last_error = error;
   }
-  throw SimulationError("Newton's method for the Cahn-Hilliard equation did not converge in " +
-                        std::to_string(std::min(n_iterations, parameters.newton_maximum_iterations)) +
-                        " iterations; a smaller time step usually helps.");
+  throw StepBreakdown("Newton's method for the Cahn-Hilliard equation did not converge in " +
+                      std::to_string(std::min(n_iterations, parameters.newton_maximum_iterations)) +
+                      " iterations.");
 }
 
 template <int dim>

@@ -71,7 +71,7 @@ void StepControl::shrink(const double factor, const std::string &reason)
     std::ostringstream message;
     message << "The time step at t = " << now
             << " would have to be smaller than 'Smallest time step' = " << parameters.smallest_step << ": "
-            << reason << " Refine the mesh, or loosen 'Time stepping/Tolerance'.";
+            << reason;
     throw SimulationError(message.str());
   }
   wanted = std::max(factor * proposed, parameters.smallest_step);
@@ -94,7 +94,9 @@ bool StepControl::judge(const double estimate, const bool on_new_mesh)
       rejected_step = proposed;
       rejected_error = estimate;
       std::ostringstream reason;
-      reason << "the estimated local error is " << estimate << " times the tolerance.";
+      reason << "the estimated local error is " << estimate
+             << " times the tolerance. Refine the mesh, or loosen "
+                "'Time stepping/Tolerance'.";
       shrink(std::clamp(ideal, 0.2, 0.7), reason.str());
       return false;
     }
@@ -142,8 +144,8 @@ void StepControl::restart()
   wanted = start_step();
 }
 
-void StepControl::fail(const std::string &reason)
+void StepControl::fail(const std::string &reason, const std::string &remedy)
 {
-  shrink(0.5, reason);
+  shrink(0.5, remedy.empty() ? reason : reason + " " + remedy);
 }
 } // namespace Gemmule

@@ -229,6 +229,35 @@ TEST(StepControl, HalvesAfterAFailureAndGivesUpAtTheSmallestStep)
   EXPECT_THROW(go_on(), SimulationError);
 }
 
+TEST(StepControl, GivesEachReasonItsOwnRemedy)
+{
+  auto p = parameters();
+  p.smallest_step = p.initial_step;
+  const auto message_of = [&](const auto &attempt)
+  {
+    StepControl control(p, 0., {2.});
+    control.propose(unlimited);
+    try
+    {
+      attempt(control);
+    }
+    catch (const SimulationError &error)
+    {
+      return std::string(error.what());
+    }
+    return std::string("none");
+  };
+  const std::string start =
+      "The time step at t = 0 would have to be smaller than 'Smallest time step' = 0.01: ";
+  EXPECT_EQ(message_of([](StepControl &control) { control.fail("A wall is reached. Use a larger box."); }),
+            start + "A wall is reached. Use a larger box.");
+  EXPECT_EQ(message_of([](StepControl &control) { control.fail("It breaks down.", "Refine the mesh."); }),
+            start + "It breaks down. Refine the mesh.");
+  EXPECT_EQ(message_of([](StepControl &control) { control.judge(8.); }),
+            start + "the estimated local error is 8 times the tolerance. Refine the mesh, or loosen 'Time "
+                    "stepping/Tolerance'.");
+}
+
 TEST(StepControl, KeepsTheStepWhenNotAdaptive)
 {
   auto p = parameters();

@@ -65,7 +65,7 @@ private:
   bool accept_step(double dt);
   /** After an attempt of size @p dt that could not be computed: the next one is smaller, or from a repair on.
    */
-  void fail_step(double dt, const std::string &reason);
+  void fail_step(double dt, const SimulationError &error);
   /**
    * After an attempt of size @p dt at a step that was not accepted: repairs the membrane if it is the reason
    * and that is allowed. @return whether the step can be tried again from a new beginning.

@@ -26,6 +26,16 @@ public:
 };
 
 /**
+ * A time step that cannot be computed with the size that it has: the solution breaks down, and no parameter or
+ * place of the membrane is to blame. A shorter step, or a finer mesh, may do.
+ */
+class StepBreakdown : public SimulationError
+{
+public:
+  using SimulationError::SimulationError;
+};
+
+/**
  * A parameter whose value is not acceptable. It knows which one, so that the parser can add the file and
  * the line that set it.
  */

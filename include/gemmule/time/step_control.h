@@ -65,8 +65,9 @@ public:
   /**
    * The proposed step could not be computed: the next proposal is half as long.
    * @param reason goes into the message if that is below the smallest size (SimulationError)
+   * @param remedy goes behind the reason in that message, if the reason itself does not say what to do
    */
-  void fail(const std::string &reason);
+  void fail(const std::string &reason, const std::string &remedy = "");
 
   /** The state at this time has no past any more: begins again as at the start. */
   void restart();
