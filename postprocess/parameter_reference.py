@@ -17,7 +17,8 @@ from pathlib import Path
 PREFACE = """\
 # Parameters
 
-All parameters of a case: what `gemmule --print-parameters` prints, as tables. This file is generated, and a test
+All parameters of a case: what `gemmule --print-parameters` prints, as tables, and what
+`gemmule --help-expressions` prints about [expressions](#expressions). This file is generated, and a test
 (`parameter_reference`) fails when it differs from the program; after changing a parameter run
 
     {command}
@@ -33,8 +34,14 @@ Parameters outside all sections come first. A heading such as `Membrane/Arclengt
 
 which on the command line is `--set "Membrane/Arclength constraint/Model=penalty"`. Everything is dimensionless
 but the times of section `Checkpoint`.
-Expressions are those of muParser, with the coordinates `x`, `y` (and `z` in 3D) as variables and, where the
-description says so, the time `t`.
+
+"""
+
+EXPRESSIONS = """\
+## Expressions
+
+An expression is a formula that the program evaluates at points and times, by muParser. Each part of it is a number
+or a condition, and the program refuses what mixes the two: it would have a value, but not the one that is meant.
 """
 COMMAND = "python3 postprocess/parameter_reference.py build/release/gemmule --output doc/parameters.md"
 
@@ -52,14 +59,44 @@ class Parameter:
     description: str
 
 
-def print_parameters(program):
+def output_of(program, option):
     try:
-        done = subprocess.run([program, "--print-parameters"], capture_output=True, text=True)
+        done = subprocess.run([program, option], capture_output=True, text=True)
     except OSError as error:
         raise ParameterReferenceError(f"cannot run '{program}' ({error}): build it first, or name another one")
     if done.returncode != 0:
-        raise ParameterReferenceError(f"'{program} --print-parameters' failed: {done.stderr.strip()}")
+        raise ParameterReferenceError(f"'{program} {option}' failed: {done.stderr.strip()}")
     return done.stdout
+
+
+def parse_help(text):
+    """The headings of the help on expressions, each with its rows: name and meaning, or one cell for a sentence."""
+    topics = {}
+    for line in text.splitlines()[1:]:
+        if line.startswith("  "):
+            if not topics:
+                raise ParameterReferenceError(f"this line of the help on expressions has no heading: {line}")
+            topics[heading].append(re.split(r" {2,}", line.strip(), maxsplit=1))
+        elif line:
+            heading = line.removesuffix(":")
+            topics[heading] = []
+    if not topics or not all(topics.values()):
+        raise ParameterReferenceError("the program printed no help on expressions")
+    return topics
+
+
+def markdown_of_expressions(topics):
+    lines = [EXPRESSIONS]
+    for heading, rows in topics.items():
+        if lines[-1]:
+            lines.append("")
+        lines += [f"### {heading}", ""]
+        if all(len(row) == 2 for row in rows):
+            lines += ["| name | meaning |", "| --- | --- |"]
+            lines += [f"| {code(name)} | {cell(meaning)} |" for name, meaning in rows]
+        else:
+            lines += [f"- {cell(' '.join(row))}" for row in rows]
+    return "\n".join(line.removesuffix("\n") for line in lines) + "\n"
 
 
 def split_description(comment, place):
@@ -131,14 +168,16 @@ def check(path, wanted):
 
 
 def main(arguments=None):
-    parser = argparse.ArgumentParser(description="Turn gemmule --print-parameters into Markdown tables.")
+    parser = argparse.ArgumentParser(description="Turn what gemmule says about its parameters into Markdown tables.")
     parser.add_argument("program", help="the program gemmule")
     action = parser.add_mutually_exclusive_group()
     action.add_argument("--output", type=Path, help="file to write (default: standard output)")
     action.add_argument("--check", type=Path, help="fail if this file is not what would be written")
     options = parser.parse_args(arguments)
     try:
-        text = markdown(parse(print_parameters(options.program)))
+        parameters = parse(output_of(options.program, "--print-parameters"))
+        expressions = parse_help(output_of(options.program, "--help-expressions"))
+        text = markdown(parameters) + "\n" + markdown_of_expressions(expressions)
         if options.check:
             check(options.check, text)
         elif options.output:

@@ -1,6 +1,9 @@
 #include <gemmule/application/command_line.h>
 #include <gemmule/output/provenance.h>
+#include <gemmule/parameters/characters.h>
 #include <gemmule/parameters/errors.h>
+#include <gemmule/parameters/expression_names.h>
+#include <gemmule/parameters/source_line.h>
 #include <gemmule/parameters/suggestion.h>
 #include <gemmule/parameters/text.h>
 #include <gemmule/version.h>
@@ -76,7 +79,7 @@ CommandLine CommandLine::parse(const int argc, const char *const *argv)
   app.allow_extras();
   app.footer(footer);
   app.get_formatter()->column_width(28);
-  bool version = false;
+  bool version = false, help_expressions = false;
   std::string directory;
   std::vector<std::string> settings;
   app.add_option("CASE.prm", result.case_file, "Parameter file of the case")->type_name("");
@@ -96,6 +99,8 @@ CommandLine CommandLine::parse(const int argc, const char *const *argv)
       "--print-parameters", result.print_parameters,
       "Print every parameter with description and value as a parameter file, then exit; without CASE.prm: "
       "the defaults");
+  app.add_flag("--help-expressions", help_expressions,
+               "Print the functions, operators and constants that expressions may use, then exit");
   app.add_flag("--version", version, "Print the versions of Gemmule and of its libraries, then exit");
 
   try
@@ -124,7 +129,9 @@ CommandLine CommandLine::parse(const int argc, const char *const *argv)
       options.push_back("--" + name);
   check_remaining(app.remaining(), options, result.case_file);
 
-  if (version)
+  if (help_expressions)
+    result.information = Parameters::expression_help();
+  else if (version)
     result.information = version_text();
   else if (result.case_file.empty() && !result.print_parameters)
     throw UserError("no parameter file is given. Usage: gemmule CASE.prm [options]." + see_help);

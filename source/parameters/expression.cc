@@ -1,5 +1,6 @@
 #include <gemmule/parameters/errors.h>
 #include <gemmule/parameters/expression.h>
+#include <gemmule/parameters/expression_checker.h>
 #include <gemmule/parameters/section.h>
 #include <gemmule/parameters/text.h>
 
@@ -7,6 +8,7 @@
 #include <deal.II/base/numbers.h>
 #include <deal.II/base/utilities.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 #include <sstream>
@@ -43,26 +45,24 @@ namespace
     return Parameters::shortened(said);
   }
 
-  /**
-   * What muParser would accept without doing what is meant: an assignment changes the coordinates, and of
-   * values separated by commas it takes the last one. Empty if there is nothing of the kind.
-   */
-  std::string pitfall(const std::string &expression)
+  /** The expression for muParser, component by component. @throws Parameters::ExpressionError */
+  std::string checked_components(const std::string &expression, const Parameters::ExpressionScope &scope)
   {
-    int depth = 0;
-    for (std::string::size_type i = 0; i < expression.size(); ++i)
+    std::string result;
+    std::string::size_type begin = 0;
+    while (true)
     {
-      const char c = expression[i];
-      const char before = i > 0 ? expression[i - 1] : ' ';
-      const char after = i + 1 < expression.size() ? expression[i + 1] : ' ';
-      depth += (c == '(') - (c == ')');
-      if (c == ',' && depth <= 0)
-        return "has a comma outside of parentheses; decimals are written with a point, and components are "
-               "separated by semicolons.";
-      if (c == '=' && after != '=' && std::string("=<>!").find(before) == std::string::npos)
-        return "has an assignment '='; comparisons are written ==, <=, >= and !=.";
+      const std::string::size_type end = std::min(expression.find(';', begin), expression.size());
+      if (dealii::Utilities::trim(expression.substr(begin, end - begin)).empty())
+        throw Parameters::ExpressionError("has an empty component.", "");
+      // Blanks in the place of the components before, so that the places in messages are those in the whole.
+      result += Parameters::checked_expression(
+          std::string(begin, ' ') + expression.substr(begin, end - begin), scope);
+      if (end == expression.size())
+        return result;
+      result += ";";
+      begin = end + 1;
     }
-    return "";
   }
 
   template <int dim>
@@ -82,10 +82,10 @@ std::unique_ptr<dealii::Function<dim>> make_function(const std::string &expressi
                                                      const unsigned int n_components,
                                                      const std::string &where, const bool of_time)
 {
-  const auto fail = [&](const std::string &reason)
+  const auto fail = [&](const std::string &reason, const bool has_remedy = false)
   {
     throw ParameterError(where, "the expression " + Parameters::in_quotes(expression) + " " + reason +
-                                    example<dim>(n_components, of_time));
+                                    (has_remedy ? "" : example<dim>(n_components, of_time)));
   };
 
   // Not split_string_list(), which swallows an empty component at the end.
@@ -93,16 +93,15 @@ std::unique_ptr<dealii::Function<dim>> make_function(const std::string &expressi
   if (n_given != n_components)
     fail("has " + std::to_string(n_given) + (n_given == 1 ? " component" : " components") + " instead of " +
          std::to_string(n_components) + "; components are separated by semicolons.");
-  std::istringstream components(expression + ";");
-  for (std::string component; std::getline(components, component, ';');)
-    if (dealii::Utilities::trim(component).empty())
-      fail("has an empty component.");
-  if (const std::string reason = pitfall(expression); !reason.empty())
-    fail(reason);
-  // Each process would draw numbers of its own, and the fields would not fit together.
-  if (expression.find("rand") != std::string::npos)
-    fail("uses random numbers, which differ from process to process and from run to run; use sines and "
-         "cosines.");
+  std::string for_parser;
+  try
+  {
+    for_parser = checked_components(expression, {dim, of_time});
+  }
+  catch (const Parameters::ExpressionError &error)
+  {
+    fail(error.what(), error.has_remedy);
+  }
 
   auto function = std::make_unique<dealii::FunctionParser<dim>>(n_components);
   try
@@ -110,7 +109,7 @@ std::unique_ptr<dealii::Function<dim>> make_function(const std::string &expressi
     const SilencedErrorStream silence;
     const std::string variables =
         dealii::FunctionParser<dim>::default_variable_names() + (of_time ? ",t" : "");
-    function->initialize(variables, expression, {{"pi", dealii::numbers::PI}}, of_time);
+    function->initialize(variables, for_parser, {{"pi", dealii::numbers::PI}}, of_time);
     // The parser looks at the text only when it is first evaluated.
     for (unsigned int i = 0; i < n_components; ++i)
       function->value(dealii::Point<dim>(), i);

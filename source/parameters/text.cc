@@ -1,3 +1,4 @@
+#include <gemmule/parameters/characters.h>
 #include <gemmule/parameters/text.h>
 
 #include <cstdio>
@@ -89,7 +90,8 @@ std::string printable(const std::string &text)
   std::string result;
   for (const char c : text)
     result += is_control_character(c) ? escaped(c) : std::string(1, c);
-  return result;
+  // Marks of the writing direction would turn the message around.
+  return with_visible_characters(result);
 }
 
 std::string flaw_of_text(const std::string &text)

@@ -1,5 +1,7 @@
 // Command lines that are right but do not compute, messages of parallel runs, permissions, and what happens
 // to the results of earlier runs. The messages about wrong command lines are in command_lines.txt.
+#include <gemmule/parameters/expression_names.h>
+
 #include "bad_input_fixture.h"
 
 namespace Gemmule::Testing
@@ -12,7 +14,7 @@ TEST_F(CommandLine, HelpExplains)
   EXPECT_EQ(result.exit_code, 0);
   EXPECT_EQ(result.err, "");
   for (const char *part : {"CASE.prm", "--set", "--output", "--resume", "--check", "--print-parameters",
-                           "--version", "Examples:", "mpirun", "Exit codes:"})
+                           "--help-expressions", "--version", "Examples:", "mpirun", "Exit codes:"})
     EXPECT_NE(result.out.find(part), std::string::npos) << part;
 }
 
@@ -22,6 +24,14 @@ TEST_F(CommandLine, VersionNamesTheLibraries)
   EXPECT_EQ(result.exit_code, 0);
   for (const char *part : {"Gemmule ", "revision", "deal.II 9", "Trilinos", "p4est"})
     EXPECT_NE(result.out.find(part), std::string::npos) << result.out;
+}
+
+TEST_F(CommandLine, HelpOnExpressionsExplainsThem)
+{
+  const Result result = run_gemmule(directory, "--help-expressions");
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ(result.err, "");
+  EXPECT_EQ(result.out, Parameters::expression_help());
 }
 
 TEST_F(CommandLine, PrintedParametersAreAValidCase)

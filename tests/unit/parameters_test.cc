@@ -251,7 +251,7 @@ TEST(Expression, ParsingErrorsAreNotPrinted)
   ::testing::internal::CaptureStderr();
   const std::string message = message_of([] { make_function<2>("x+bla", 1, "Some/Place"); });
   EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
-  EXPECT_EQ(message.find("Some/Place: the expression 'x+bla' cannot be understood: Unexpected token \"bla"),
+  EXPECT_EQ(message.find("Some/Place: the expression 'x+bla' has the name 'bla', which is not known here."),
             0u)
       << message;
 }

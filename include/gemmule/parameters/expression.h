@@ -15,9 +15,10 @@ class Point;
 namespace Gemmule
 {
 /**
- * Turns the text of a parameter into a function of x, y(, z) and the time t; the constant pi is known. A
- * vector-valued function has its components separated by ";". The syntax is that of dealii::FunctionParser
- * (muParser); the time is that of Function::set_time().
+ * Turns the text of a parameter into a function of x, y(, z) and the time t. A vector-valued function has its
+ * components separated by ";". The names and operators are those of Parameters::expression_help(); the values
+ * are computed by dealii::FunctionParser (muParser), after Parameters::checked_expression() has refused what
+ * muParser would take for something else. The time is that of Function::set_time().
  *
  * @param expression the text
  * @param n_components number of components that it has to have
