@@ -35,6 +35,8 @@ Parameters outside all sections come first. A heading such as `Membrane/Arclengt
 which on the command line is `--set "Membrane/Arclength constraint/Model=penalty"`. Everything is dimensionless
 but the times of section `Checkpoint`.
 
+A parameter file is plain text in UTF-8. It may also come through a pipe: `gemmule /dev/stdin < case.prm`, a named pipe,
+or `gemmule <(COMMAND)` in a shell such as bash. Under `mpirun` rank 0 reads it for all.
 """
 
 EXPRESSIONS = """\

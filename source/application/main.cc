@@ -5,6 +5,7 @@
 #include <gemmule/output/rank_zero.h>
 #include <gemmule/parameters/all_parameters.h>
 #include <gemmule/parameters/errors.h>
+#include <gemmule/parameters/parameter_file.h>
 #include <gemmule/parameters/text.h>
 
 #include <deal.II/base/mpi.h>
@@ -119,7 +120,14 @@ int main(int argc, char **argv)
   {
     command = CommandLine::parse(argc, argv);
     if (command.information.empty())
-      parameters.parse(command.case_file, command.overrides);
+    {
+      // What a pipe has given to one process, the others would wait for in vain.
+      std::string text;
+      if (!command.case_file.empty())
+        on_rank_zero(communicator, [&] { text = Parameters::read_parameter_file(command.case_file); });
+      text = dealii::Utilities::MPI::broadcast(communicator, text, 0);
+      parameters.parse_text(command.case_file, text, command.overrides);
+    }
     std::ostringstream text;
     if (command.information.empty() && command.print_parameters)
       parameters.print(text);

@@ -1,6 +1,7 @@
 #include <gemmule/parameters/all_parameters.h>
 #include <gemmule/parameters/errors.h>
 #include <gemmule/parameters/expression.h>
+#include <gemmule/parameters/parameter_file.h>
 #include <gemmule/parameters/section.h>
 #include <gemmule/parameters/strict_parser.h>
 
@@ -168,13 +169,18 @@ void AllParameters::check() const
 
 void AllParameters::parse(const std::string &file, const std::vector<std::string> &overrides)
 {
+  parse_text(file, file.empty() ? "" : read_parameter_file(file), overrides);
+}
+
+void AllParameters::parse_text(const std::string &file, const std::string &text,
+                               const std::vector<std::string> &overrides)
+{
   // Into a copy, so that a failure leaves this object as it was.
   AllParameters result(*this);
   dealii::ParameterHandler prm;
   result.add_parameters(prm);
   StrictParser parser(prm);
-  if (!file.empty())
-    parser.parse_file(file);
+  parser.parse_text(file, text);
   for (const std::string &assignment : overrides)
     parser.parse_override(assignment);
   result.parameter_file = file;

@@ -6,16 +6,14 @@
 #include <deal.II/base/parameter_handler.h>
 #include <deal.II/base/utilities.h>
 
-#include <filesystem>
-#include <fstream>
+#include <algorithm>
+#include <cctype>
 #include <sstream>
 
 namespace Gemmule::Parameters
 {
 namespace
 {
-  // A file with every parameter and its description has 20 kB.
-  constexpr std::uintmax_t largest_file = 10 * 1024 * 1024;
   const std::string command_line = "command line";
 
   /** Removes blanks at both ends and makes each run of blanks in between one space. */
@@ -72,26 +70,9 @@ namespace
 
 StrictParser::StrictParser(dealii::ParameterHandler &prm) : prm(prm), schema(prm) {}
 
-void StrictParser::parse_file(const std::string &file)
+void StrictParser::parse_text(const std::string &file, const std::string &text)
 {
-  std::error_code ignored;
-  if (!std::filesystem::exists(file, ignored))
-    throw UserError("the parameter file '" + file +
-                    "' does not exist. Check the path; 'gemmule --print-parameters' "
-                    "prints a file to start from.");
-  if (std::filesystem::is_directory(file, ignored))
-    throw UserError("'" + file + "' is a directory. Give the parameter file (*.prm) itself.");
-  // Reading some devices would never end.
-  const auto status = std::filesystem::status(file, ignored);
-  if (!std::filesystem::is_regular_file(status) && !std::filesystem::is_fifo(status))
-    throw UserError("'" + file + "' is a device. Give a parameter file (*.prm), which is plain text.");
-  if (std::filesystem::is_regular_file(status) && std::filesystem::file_size(file, ignored) > largest_file)
-    throw UserError("'" + file + "' is larger than " + std::to_string(largest_file / 1024 / 1024) +
-                    " MB and no parameter file. Give the parameter file (*.prm), which is plain text.");
-  std::ifstream stream(file);
-  if (!stream)
-    throw UserError("the parameter file '" + file + "' cannot be read. Check its permissions.");
-
+  std::istringstream stream(text);
   std::string logical_line;
   unsigned int line_number = 0, first_line_number = 1;
   for (std::string line; std::getline(stream, line);)
@@ -116,9 +97,6 @@ void StrictParser::parse_file(const std::string &file)
     parse_line(dealii::Utilities::trim(logical_line + line), file + ":" + std::to_string(first_line_number));
     logical_line.clear();
   }
-  if (stream.bad())
-    throw UserError("reading the parameter file '" + file + "' failed after line " +
-                    std::to_string(line_number) + ".");
   if (!logical_line.empty())
     throw UserError(file + ":" + std::to_string(line_number) +
                     ": the file ends with a backslash, which announces another line. Remove it.");

@@ -1,6 +1,9 @@
 // Command lines that are right but do not compute, messages of parallel runs, permissions, and what happens
 // to the results of earlier runs. The messages about wrong command lines are in command_lines.txt.
+#include <gemmule/parameters/all_parameters.h>
 #include <gemmule/parameters/expression_names.h>
+
+#include <sys/stat.h>
 
 #include "bad_input_fixture.h"
 
@@ -172,6 +175,90 @@ TEST_F(BadPermissions, UnwritableDirectory)
       "--output or the parameter 'Output directory'.");
   EXPECT_TRUE(std::filesystem::is_empty(directory.path / "locked"));
 }
+
+/** Gives the parameter file through a pipe, which can be read only once; each run has a time limit. */
+class ParameterFileInAPipe : public BadInput, public ::testing::WithParamInterface<unsigned int>
+{
+protected:
+  /** @param writer a command in shell syntax whose output is the standard input of the program */
+  Result run_behind(const std::string &writer, const std::string &arguments) const
+  {
+    return run_gemmule(directory, arguments, GetParam(),
+                       time_limit(60) + "sh -c '" + writer + " | \"$0\" \"$@\"' ");
+  }
+
+  static std::string small_case(const std::string &more = "")
+  {
+    return "subsection Mesh\nset Membrane level = 4\nset Phase boundary level = 4\nend\n"
+           "subsection Membrane\nset Cahn number = 0.05\nend\n" +
+           more;
+  }
+};
+
+TEST_P(ParameterFileInAPipe, IsReadFromStandardInput)
+{
+  directory.write("case.prm", small_case());
+  const Result checked = run_behind("cat case.prm", "/dev/stdin --check");
+  EXPECT_EQ(checked.exit_code, 0) << checked.err;
+  EXPECT_EQ(checked.out, "/dev/stdin: the parameters are valid.\n");
+  const Result printed = run_behind("cat case.prm", "/dev/stdin --print-parameters");
+  EXPECT_EQ(printed.exit_code, 0) << printed.err;
+  EXPECT_EQ(printed.out, run_gemmule(directory, "case.prm --print-parameters").out);
+}
+
+TEST_P(ParameterFileInAPipe, IsReadFromANamedPipe)
+{
+  directory.write("case.prm", small_case());
+  ASSERT_EQ(mkfifo(directory.file("pipe").c_str(), 0600), 0);
+  const Result result = run_behind("cat case.prm > pipe & true", "pipe --check");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(result.out, "pipe: the parameters are valid.\n");
+}
+
+TEST_P(ParameterFileInAPipe, IsComputedAndResumed)
+{
+  directory.write("case.prm", small_case("set End time = 1e-4\n"));
+  const Result first = run_behind("cat case.prm", "/dev/stdin --output run");
+  EXPECT_EQ(first.exit_code, 0) << first.err;
+  directory.write("longer.prm", small_case("set End time = 2e-4\n"));
+  const Result second = run_behind("cat longer.prm", "/dev/stdin --output run --resume");
+  EXPECT_EQ(second.exit_code, 0) << second.err;
+  AllParameters used;
+  used.parse(directory.file("run/parameters.prm"));
+  EXPECT_EQ(used.end_time, 2e-4);
+}
+
+TEST_P(ParameterFileInAPipe, GetsOneMessageAboutAMistake)
+{
+  const Result result = run_behind("echo set End tim = 1", "/dev/stdin --check");
+  EXPECT_EQ(result.exit_code, 1);
+  const std::string message =
+      "gemmule: error: /dev/stdin:1: there is no parameter 'End tim' at the top level.";
+  EXPECT_NE(result.err.find(message), std::string::npos) << result.err;
+  EXPECT_EQ(result.err.find("gemmule: error: "), result.err.rfind("gemmule: error: ")) << result.err;
+}
+
+TEST_P(ParameterFileInAPipe, MayNotBeEndless)
+{
+  const Result result = run_behind("yes", "/dev/stdin --check");
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_NE(
+      result.err.find("gemmule: error: '/dev/stdin' is larger than 10 MB and no parameter file. Give the "
+                      "parameter file (*.prm), which is plain text."),
+      std::string::npos)
+      << result.err;
+}
+
+TEST_P(ParameterFileInAPipe, MayBeEmpty)
+{
+  const Result result = run_behind("true", "/dev/stdin --print-parameters");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(result.out, run_gemmule(directory, "--print-parameters").out);
+}
+
+INSTANTIATE_TEST_SUITE_P(, ParameterFileInAPipe, ::testing::Values(1u, 2u),
+                         [](const auto &info)
+                         { return std::to_string(info.param) + (info.param == 1 ? "Rank" : "Ranks"); });
 
 using EarlierResults = BadInput;
 

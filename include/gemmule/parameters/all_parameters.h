@@ -42,7 +42,7 @@ struct AllParameters
   Output output;
   Checkpoint checkpoint;
 
-  /** The file that parse() has read; empty without one. */
+  /** Name of the file that parse() or parse_text() has read; empty without one. */
   std::string parameter_file;
   /** Where each parameter that parse() has found was set, by full name: "case.prm:12" or "command line". */
   std::map<std::string, std::string> places;
@@ -65,6 +65,16 @@ struct AllParameters
    * @throws UserError with file and line (or "command line") in its message
    */
   void parse(const std::string &file, const std::vector<std::string> &overrides = {});
+
+  /**
+   * The same for a file that has been read already, as in parallel, where one process reads for all.
+   *
+   * @param file name of the file, for messages
+   * @param text what read_parameter_file() has returned
+   * @throws UserError
+   */
+  void parse_text(const std::string &file, const std::string &text,
+                  const std::vector<std::string> &overrides = {});
 
   /** The error with the place where its parameter was set, for the user. */
   UserError located(const ParameterError &error) const;

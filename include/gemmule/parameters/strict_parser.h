@@ -20,8 +20,12 @@ public:
   /** @param prm with all parameters declared; it has to live as long as the parser */
   explicit StrictParser(dealii::ParameterHandler &prm);
 
-  /** @throws UserError */
-  void parse_file(const std::string &file);
+  /**
+   * @param file name of the file, for messages
+   * @param text what it holds
+   * @throws UserError
+   */
+  void parse_text(const std::string &file, const std::string &text);
 
   /**
    * Sets one parameter from "Section/Subsection/Key=value", as given on the command line. It replaces what
