@@ -46,10 +46,36 @@ Exit codes:
 
   const std::string see_help = " 'gemmule --help' shows the options.";
 
+  /** Dashes of word processors and web pages begin no option. */
+  void refuse_dashes(const std::string &argument)
+  {
+    const auto character = Parameters::find_foreign_character(argument);
+    if (character && character->column < 3 && character->remedy == "Write '-'.")
+      throw UserError("the argument " + Parameters::in_quotes(argument) + " has " + character->name +
+                      ". Options begin with two hyphens: '--'." + see_help);
+  }
+
+  /** Nor do their quotation marks and blanks keep the words of an argument together. */
+  void refuse_typography(const std::string &argument)
+  {
+    refuse_dashes(argument);
+    const auto character = Parameters::find_foreign_character(argument);
+    if (!character)
+      return;
+    const bool is_quote = character->name.find("quotation mark") != std::string::npos;
+    if (is_quote || Parameters::find_invisible_character(argument))
+      throw UserError(
+          "the argument " + Parameters::in_quotes(argument) + " has " + character->name + ". " +
+          (is_quote ? "Write the plain quotation marks of the keyboard: \"." : character->remedy) + see_help);
+  }
+
   /** Complains about arguments that the options did not consume. */
   void check_remaining(const std::vector<std::string> &remaining, const std::vector<std::string> &options,
                        const std::string &case_file)
   {
+    refuse_dashes(case_file);
+    for (const std::string &argument : remaining)
+      refuse_typography(argument);
     for (const std::string &argument : remaining)
       if (argument.size() > 1 && argument[0] == '-')
       {
@@ -140,6 +166,8 @@ CommandLine CommandLine::parse(const int argc, const char *const *argv)
     throw UserError("--check looks at a new run only: leave out --resume, or --check." + see_help);
   if (app.count("--output") > 0 && directory.empty())
     throw UserError("--output needs the name of a directory." + see_help);
+  if (app.count("--output") > 0)
+    Parameters::refuse_invisible_characters(directory, "command line");
   result.overrides = settings;
   if (!directory.empty())
     result.overrides.push_back("Output directory=" + directory);

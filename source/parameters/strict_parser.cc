@@ -1,4 +1,5 @@
 #include <gemmule/parameters/errors.h>
+#include <gemmule/parameters/line_advice.h>
 #include <gemmule/parameters/strict_parser.h>
 #include <gemmule/parameters/suggestion.h>
 #include <gemmule/parameters/text.h>
@@ -73,31 +74,41 @@ StrictParser::StrictParser(dealii::ParameterHandler &prm) : prm(prm), schema(prm
 void StrictParser::parse_text(const std::string &file, const std::string &text)
 {
   std::istringstream stream(text);
-  std::string logical_line;
-  unsigned int line_number = 0, first_line_number = 1;
+  SourceLine logical_line;
+  unsigned int line_number = 0;
+  bool is_continued = false;
   for (std::string line; std::getline(stream, line);)
   {
     ++line_number;
     if (line_number == 1 && line.compare(0, 3, "\xEF\xBB\xBF") == 0)
       line.erase(0, 3);
-    if (logical_line.empty())
-      first_line_number = line_number;
+    if (!line.empty() && line.back() == '\r')
+      line.pop_back();
     const std::string here = file + ":" + std::to_string(line_number);
     if (line.find('\0') != std::string::npos)
       throw UserError(here + ": the line holds a zero byte, so that this is no plain text. Save the file as "
                              "text in UTF-8.");
-    line = dealii::Utilities::trim(line.substr(0, line.find('#')));
-    if (const std::string flaw = flaw_of_text(line); !flaw.empty())
+    // What stands behind it looks like a line of its own, and would belong to a comment in front of it.
+    if (line.find('\r') != std::string::npos)
+      throw UserError(here + ": the line holds a carriage return (\\x0D) that does not end it. Save the file "
+                             "with the line ends of Unix or Windows.");
+    const std::string code = line.substr(0, line.find('#'));
+    if (const std::string flaw = flaw_of_text(code); !flaw.empty())
       throw UserError(here + ": the line " + flaw + ". Remove it: parameter files are plain text in UTF-8.");
-    if (!line.empty() && line.back() == '\\')
-    {
-      logical_line += line.substr(0, line.size() - 1) + " ";
+    refuse_invisible_characters(code, here);
+
+    std::string::size_type begin = std::min(code.find_first_not_of(" \t"), code.size());
+    std::string::size_type end = code.find_last_not_of(" \t") + 1;
+    is_continued = end > begin && code[end - 1] == '\\';
+    if (is_continued)
+      --end;
+    logical_line.append(line, begin, std::max(begin, end), here);
+    if (is_continued)
       continue;
-    }
-    parse_line(dealii::Utilities::trim(logical_line + line), file + ":" + std::to_string(first_line_number));
-    logical_line.clear();
+    parse_line(logical_line);
+    logical_line = SourceLine();
   }
-  if (!logical_line.empty())
+  if (is_continued)
     throw UserError(file + ":" + std::to_string(line_number) +
                     ": the file ends with a backslash, which announces another line. Remove it.");
   if (!open_sections.empty())
@@ -105,14 +116,15 @@ void StrictParser::parse_text(const std::string &file, const std::string &text)
                     "' that starts here has no 'end'. Add a line 'end' after its last parameter.");
 }
 
-void StrictParser::parse_line(const std::string &line, const std::string &place)
+void StrictParser::parse_line(const SourceLine &source)
 {
+  const std::string &line = source.text(), &place = source.place();
   const std::string section = open_sections.empty() ? "" : open_sections.back().path;
   std::string rest;
   if (line.empty())
     return;
   if (starts_with(line, "subsection", rest))
-    enter(rest, place);
+    enter(rest, source);
   else if (starts_with(line, "end", rest))
   {
     if (!rest.empty())
@@ -127,7 +139,10 @@ void StrictParser::parse_line(const std::string &line, const std::string &place)
   {
     const std::string::size_type equals = line.find('=');
     if (equals == std::string::npos)
+    {
+      source.refuse_foreign_characters();
       throw UserError(place + ": " + in_quotes(line) + " has no '='. Write 'set Name = value'.");
+    }
     const std::string key = normalise(line.substr(3, equals - 3));
     if (key.empty())
       throw UserError(place + ": " + in_quotes(line) + " names no parameter. Write 'set Name = value'.");
@@ -135,18 +150,16 @@ void StrictParser::parse_line(const std::string &line, const std::string &place)
       throw UserError(place + ": the name " + in_quotes(key) +
                       " has a '/', as on the command line. In a file write 'subsection NAME', 'set Name = "
                       "value' and 'end' on lines of their own.");
-    assign(section, key, dealii::Utilities::trim(line.substr(equals + 1)), place, set_in_file);
+    assign(section, key, source, equals, set_in_file);
   }
-  else if (starts_with(line, "include", rest))
+  else if (starts_with(line, "include", rest) || line.rfind("Include", 0) == 0)
     throw UserError(place +
                     ": 'include' is not supported. Copy the lines, or use --set on the command line.");
   else
   {
-    std::string remedy = "Lines are 'subsection NAME', 'set Name = value', 'end', or comments after '#'.";
-    const std::string key = normalise(line.substr(0, line.find('=')));
-    if (line.find('=') != std::string::npos && !nearest(key, schema.keys(section)).empty())
-      remedy = "Is 'set' missing in front of it?";
-    throw UserError(place + ": the line " + in_quotes(line) + " cannot be understood. " + remedy);
+    source.refuse_foreign_characters();
+    throw UserError(place + ": the line " + in_quotes(line) + " cannot be understood. " +
+                    advice_for_line(line, section, schema));
   }
 }
 
@@ -154,16 +167,10 @@ void StrictParser::parse_override(const std::string &assignment)
 {
   const std::string place = command_line;
   const std::string::size_type equals = assignment.find('=');
-  if (equals == std::string::npos)
-    throw UserError(place + ": --set " + in_quotes(assignment) +
-                    " has no '='. Write --set \"Section/Name=value\", for example --set \"Fluid/Capillary "
-                    "number=0.5\".");
-  if (dealii::Utilities::trim(assignment.substr(0, equals)).empty())
-    throw UserError(place + ": --set " + in_quotes(assignment) +
-                    " names no parameter. Write --set \"Section/Name=value\".");
+  const std::string value =
+      equals == std::string::npos ? "" : dealii::Utilities::trim(assignment.substr(equals + 1));
 
   // The run writes its parameters down as a file, which has to hold the value.
-  const std::string value = dealii::Utilities::trim(assignment.substr(equals + 1));
   std::string flaw = flaw_of_text(assignment);
   if (flaw.empty() && value.find('#') != std::string::npos)
     flaw = "holds a '#', which begins a comment in parameter files";
@@ -171,6 +178,19 @@ void StrictParser::parse_override(const std::string &assignment)
     flaw = "ends with a backslash, which continues a line in parameter files";
   if (!flaw.empty())
     throw UserError(place + ": " + in_quotes(assignment) + " " + flaw + ". Choose another value.");
+  refuse_invisible_characters(assignment, place);
+  const SourceLine source(assignment);
+
+  if (equals == std::string::npos)
+  {
+    source.refuse_foreign_characters();
+    throw UserError(place + ": --set " + in_quotes(assignment) +
+                    " has no '='. Write --set \"Section/Name=value\", for example --set \"Fluid/Capillary "
+                    "number=0.5\".");
+  }
+  if (dealii::Utilities::trim(assignment.substr(0, equals)).empty())
+    throw UserError(place + ": --set " + in_quotes(assignment) +
+                    " names no parameter. Write --set \"Section/Name=value\".");
 
   std::string section;
   const auto [sections, key] = Schema::split(assignment.substr(0, equals));
@@ -179,12 +199,15 @@ void StrictParser::parse_override(const std::string &assignment)
   {
     name = normalise(name);
     if (!schema.has_section(Schema::join(section, name)))
+    {
+      source.refuse_foreign_characters(0, equals);
       unknown_section(section, name, place);
+    }
     section = Schema::join(section, name);
   }
   if (!sections.empty() && sections.back() == '/') // getline() does not see the empty name at the end
     unknown_section(section, "", place);
-  assign(section, normalise(key), value, place, set_on_command_line);
+  assign(section, normalise(key), source, equals, set_on_command_line);
 }
 
 std::map<std::string, std::string> StrictParser::places() const
@@ -195,8 +218,9 @@ std::map<std::string, std::string> StrictParser::places() const
   return result;
 }
 
-void StrictParser::enter(const std::string &name, const std::string &place)
+void StrictParser::enter(const std::string &name, const SourceLine &source)
 {
+  const std::string &place = source.place();
   const std::string section = open_sections.empty() ? "" : open_sections.back().path;
   if (name.empty())
     throw UserError(place +
@@ -207,17 +231,26 @@ void StrictParser::enter(const std::string &name, const std::string &place)
                     " has a '/', as on the command line. In a file write a line 'subsection NAME' and an "
                     "'end' for each part.");
   if (!schema.has_section(Schema::join(section, name)))
+  {
+    source.refuse_foreign_characters();
     unknown_section(section, name, place);
+  }
   open_sections.push_back({Schema::join(section, name), place});
 }
 
-void StrictParser::assign(const std::string &section, const std::string &key, const std::string &value,
-                          const std::string &place, std::map<std::string, std::string> &already_set)
+void StrictParser::assign(const std::string &section, const std::string &key, const SourceLine &source,
+                          const std::string::size_type equals,
+                          std::map<std::string, std::string> &already_set)
 {
+  const std::string &place = source.place();
+  const std::string value = dealii::Utilities::trim(source.text().substr(equals + 1));
   const std::string path = Schema::join(section, key);
   const auto entry = schema.entries().find(path);
   if (entry == schema.entries().end())
+  {
+    source.refuse_foreign_characters(0, equals);
     unknown_key(section, key, place);
+  }
   if (const auto earlier = already_set.find(path); earlier != already_set.end())
     throw UserError(place + ": the parameter '" + path + "' is given twice" +
                     (place != command_line        ? ", first at " + earlier->second
@@ -240,6 +273,9 @@ void StrictParser::assign(const std::string &section, const std::string &key, co
   }
   for (; depth > 0; --depth)
     prm.leave_subsection();
+  // An expression is text of any kind for ParameterHandler.
+  if (!allowed || entry->second.allowed.find("expression") != std::string::npos)
+    source.refuse_foreign_characters(equals + 1);
   if (!allowed)
   {
     const std::string similar = nearest(value, choices(entry->second.allowed));

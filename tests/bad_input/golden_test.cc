@@ -130,8 +130,9 @@ TEST_P(BadCase, EndsTheProgram)
 
 INSTANTIATE_TEST_SUITE_P(Kinds, BadCase,
                          ::testing::Values("unknown_key", "very_long_line", "zero_bytes", "box_empty",
-                                           "dimension_three", "expression_unknown_name", "velocity_pumps",
-                                           "shape_crosses_itself", "shape_leaves_the_box",
+                                           "dimension_three", "expression_unknown_name",
+                                           "expression_chained_comparison", "no_break_space",
+                                           "velocity_pumps", "shape_crosses_itself", "shape_leaves_the_box",
                                            "capillary_number_denormal", "double_well_unknown"),
                          [](const auto &info) { return info.param; });
 

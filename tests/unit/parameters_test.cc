@@ -150,6 +150,125 @@ TEST(Parameters, FileSyntax)
   EXPECT_EQ(parameters.output.output_times, (std::vector<double>{0.1, 2.}));
 }
 
+TEST(Parameters, CommentsHoldAnyCharacter)
+{
+  AllParameters parameters;
+  parameters.parse_text("case.prm", "\xEF\xBB\xBF# \u00A0 \u200B \u2212 \u202E \u2028 \u03C0\n"
+                                    "set End time = 3 # \u00A0\u00D7\u3000\n"
+                                    "subsection Membrane # \u2013\n"
+                                    "set Level set = x^2 \\ # \u00B2\n + y^2 - 0.1\nend # \u200D\n");
+  EXPECT_EQ(parameters.end_time, 3.);
+}
+
+TEST(Parameters, NamesOfDirectoriesHoldAnyLetter)
+{
+  AllParameters parameters;
+  parameters.parse_text("case.prm", "set Output directory = Ergebnisse f\u00FCr K\u00E4the \u2013 \u03C0\n");
+  EXPECT_EQ(parameters.output_directory, "Ergebnisse f\u00FCr K\u00E4the \u2013 \u03C0");
+}
+
+TEST(Parameters, EveryInvisibleCharacterIsNamedWithItsPlace)
+{
+  const std::vector<std::pair<std::string, std::string>> characters = {
+      {"\u00A0", "U+00A0"}, {"\u1680", "U+1680"}, {"\u2000", "U+2000"}, {"\u2004", "U+2004"},
+      {"\u2007", "U+2007"}, {"\u200A", "U+200A"}, {"\u202F", "U+202F"}, {"\u205F", "U+205F"},
+      {"\u3000", "U+3000"}, {"\u200B", "U+200B"}, {"\u200C", "U+200C"}, {"\u200D", "U+200D"},
+      {"\u2060", "U+2060"}, {"\uFEFF", "U+FEFF"}, {"\u00AD", "U+00AD"}, {"\u2028", "U+2028"},
+      {"\u2029", "U+2029"}, {"\u200E", "U+200E"}, {"\u200F", "U+200F"}, {"\u202A", "U+202A"},
+      {"\u202E", "U+202E"}, {"\u2066", "U+2066"}, {"\u2069", "U+2069"}, {"\uFE0F", "U+FE0F"},
+      {"\u3164", "U+3164"}};
+  for (const auto &[character, code] : characters)
+  {
+    for (const auto &[line, column] :
+         std::vector<std::pair<std::string, std::string>>{{character + "set End time = 1", "1"},
+                                                          {"set" + character + "End time = 1", "4"},
+                                                          {"set End" + character + "time = 1", "8"},
+                                                          {"set End time =" + character + "1", "15"},
+                                                          {"set Output directory = a" + character, "25"},
+                                                          {"  \t" + character, "4"}})
+    {
+      const std::string message =
+          message_of([&] { AllParameters().parse_text("case.prm", "# first\n" + line + "\n"); });
+      EXPECT_EQ(message.find("case.prm:2: column " + column + " of '"), 0u) << message;
+      EXPECT_NE(message.find("<" + code + ">"), std::string::npos) << message;
+      EXPECT_NE(message.find("(" + code + "). "), std::string::npos) << message;
+    }
+    const std::string message =
+        message_of([&] { AllParameters().parse("", {"Output directory=a" + character + "b"}); });
+    EXPECT_EQ(message.find("command line: character 19 of 'Output directory=a<" + code + ">b' is "), 0u)
+        << message;
+  }
+}
+
+TEST(Parameters, LookAlikesAreNamedWithTheirPlace)
+{
+  const auto message = [&](const std::string &text)
+  { return message_of([&] { AllParameters().parse_text("case.prm", text); }); };
+  EXPECT_EQ(message("subsection Domain\n  set Lower corner = -1,\u20131\nend\n"),
+            "case.prm:2: column 25 of '  set Lower corner = -1,\u20131' holds '\u2013' (en dash, U+2013). "
+            "Write '-'.");
+  EXPECT_EQ(message("set End time \uFF1D 1\n"),
+            "case.prm:1: column 14 of 'set End time \uFF1D 1' holds '\uFF1D' (fullwidth character, U+FF1D). "
+            "Write '='.");
+  EXPECT_EQ(message("set End\u2011time = 1\n").find("case.prm:1: column 8 of "), 0u);
+  EXPECT_EQ(message("subsection Fl\u00FCid\nend\n").find("case.prm:1: column 14 of "), 0u);
+  EXPECT_EQ(message("set Dimension = \u0663\n").find("case.prm:1: column 17 of "), 0u);
+  EXPECT_EQ(message("subsection Membrane\nset Level set = x^2 \\\n  + y^2 \\\n  \u2212 0.1\nend\n"),
+            "case.prm:4: column 3 of '  \u2212 0.1' holds '\u2212' (minus sign, U+2212). Write '-'.");
+}
+
+TEST(Parameters, LineEndsOfOldMacsAreRefused)
+{
+  const std::string expected =
+      "case.prm:1: the line holds a carriage return (\\x0D) that does not end it. Save the "
+      "file with the line ends of Unix or Windows.";
+  for (const char *const text : {"# all of it\rset End time = 3\r", "set End time = 3\rset Dimension = 2",
+                                 "set End time = 3 # three\rset Dimension = 2\r\n"})
+    EXPECT_EQ(message_of([&] { AllParameters().parse_text("case.prm", text); }), expected);
+}
+
+TEST(Parameters, LinesWithoutKeywordGetTheNearestOne)
+{
+  for (const auto &[line, advice] : std::vector<std::pair<std::string, std::string>>{
+           {"Set End time = 1", "Write 'set' in small letters."},
+           {"sEt x = 1", "Write 'set' in small letters."},
+           {"Subsection Fluid", "Write 'subsection' in small letters."},
+           {"SubSection Fluid", "Write 'subsection' in small letters."},
+           {"End", "Write 'end' in small letters."},
+           {"End time = 1", "Is 'set' missing in front of it?"},
+           {"end_time = 1", "Is 'set' missing in front of it?"},
+           {"Viscosity ratio = 1", "Is 'set' missing in front of it?"},
+           {"x = 1", "If it sets a parameter, 'set' is missing in front of it: write 'set Name = value'."},
+           {"sett End time = 1", "Did you mean 'set' instead of 'sett'?"},
+           {"ste End time = 1", "Did you mean 'set' instead of 'ste'?"},
+           {"et End time = 1", "Did you mean 'set' instead of 'et'?"},
+           {"setEnd time = 1", "Write a blank behind 'set'."},
+           {"let End time = 1", "Did you mean 'set' instead of 'let'?"},
+           {"subsecton Fluid", "Did you mean 'subsection' instead of 'subsecton'?"},
+           {"section Fluid", "Did you mean 'subsection' instead of 'section'?"},
+           {"subsectionFluid", "Write a blank behind 'subsection'."},
+           {"sub section Fluid", "A section begins with 'subsection NAME'."},
+           {"ned", "Did you mean 'end'?"},
+           {"ends", "Did you mean 'end'?"},
+           {"endsubsection", "A section ends with 'end' on a line of its own."},
+           {"}", "A section ends with 'end' on a line of its own."},
+           {"Fluid", "A section begins with 'subsection Fluid' and ends with 'end'."},
+           {"[Fluid]", "A section begins with 'subsection Fluid' and ends with 'end'."},
+           {"Membrane {", "A section begins with 'subsection Membrane' and ends with 'end'."},
+           {"End time: 1", "Write 'set End time = value'."},
+           {"End time 1", "If it sets a parameter, write 'set End time = value'."},
+           {"// comment", "Comments begin with '#'."},
+           {"hello", "Lines are 'subsection NAME', 'set Name = value', 'end', or comments after '#'."}})
+  {
+    const std::string message = message_of([&] { AllParameters().parse_text("case.prm", line + "\n"); });
+    EXPECT_EQ(message.find("case.prm:1: the line '" + line + "' cannot be understood. "), 0u) << message;
+    EXPECT_NE(message.find(advice), std::string::npos) << message;
+  }
+  EXPECT_NE(message_of([] { AllParameters().parse_text("case.prm", "Include a.prm\n"); })
+                .find("'include' is not supported."),
+            std::string::npos);
+}
+
 TEST(Parameters, OverridesReplaceTheFile)
 {
   const TemporaryDirectory directory;

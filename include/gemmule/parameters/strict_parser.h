@@ -1,6 +1,7 @@
 #pragma once
 
 #include <gemmule/parameters/schema.h>
+#include <gemmule/parameters/source_line.h>
 
 #include <map>
 #include <string>
@@ -44,10 +45,11 @@ private:
     std::string place;
   };
 
-  void parse_line(const std::string &line, const std::string &place);
-  void enter(const std::string &name, const std::string &place);
-  void assign(const std::string &section, const std::string &key, const std::string &value,
-              const std::string &place, std::map<std::string, std::string> &already_set);
+  void parse_line(const SourceLine &source);
+  void enter(const std::string &name, const SourceLine &source);
+  /** @param equals where the '=' stands in the line; the value is behind it */
+  void assign(const std::string &section, const std::string &key, const SourceLine &source,
+              std::string::size_type equals, std::map<std::string, std::string> &already_set);
   [[noreturn]] void unknown_key(const std::string &section, const std::string &key,
                                 const std::string &place) const;
   [[noreturn]] void unknown_section(const std::string &section, const std::string &name,
