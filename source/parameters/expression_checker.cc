@@ -185,7 +185,9 @@ namespace
       ++next;
       if (here().kind == Token::number && here().text == "1" && tokens[next + 1].is("/"))
         throw ExpressionError("has '^1/', which takes the power first and divides then.",
-                              "Put the exponent into parentheses, as in x^(1/2).");
+                              "Write '" + complaints.text(base) + "^(1/" +
+                                  (tokens[next + 2].kind == Token::number ? tokens[next + 2].text : "...") +
+                                  ")'.");
       return computed(base, "^", sign());
     }
 
@@ -333,7 +335,7 @@ namespace
             "Use sines and cosines.");
       throw ExpressionError((is_called ? "calls " : "has the name ") + in_quotes(token.text) +
                                 (is_called ? ", which is no function here." : ", which is not known here."),
-                            remedy_for_unknown_name(token.text, scope));
+                            remedy_for_unknown_name(token.text, is_called, scope));
     }
 
     /** Two parts without an operator between them. */

@@ -71,7 +71,9 @@ void ExpressionComplaints::about_combination(const ExpressionPart &left, const s
                                              const ExpressionPart &right) const
 {
   const std::string where = "beside '" + operation + "'";
-  if (!left.is_truth || left.operands.empty() || left.operands[0].is_truth || left.is_enclosed())
+  // "x==1 || 2"
+  if (!left.is_truth || left.operands.empty() || left.operands[0].is_truth || left.is_enclosed() ||
+      is_order(left.relation))
     about_condition(left.is_truth ? right : left, where);
   throw ExpressionError("has the number " + quoted(right) + " where a condition is expected, " + where + ".",
                         "Write '" + text(left) + " " + operation + " " + text(left.operands[0]) +
@@ -109,8 +111,10 @@ void ExpressionComplaints::about_argument(const std::string &function, const Exp
 
 void ExpressionComplaints::about_condition(const ExpressionPart &number, const std::string &where) const
 {
+  const std::string value = inner_text(number);
+  const bool is_constant = value.find_first_not_of("0123456789.eE+- ") == std::string::npos;
   throw ExpressionError("has the number " + quoted(number) + " where a condition is expected, " + where + ".",
-                        "Write a comparison, for example '" + inner_text(number) + ">0'.");
+                        "Write a comparison, for example '" + (is_constant ? "x" : value) + ">0'.");
 }
 
 void ExpressionComplaints::about_negation(const ExpressionPart &number) const

@@ -28,7 +28,7 @@ namespace
         {{"or"}, "Write '||'."},
         {{"not"}, "Write '!', for example '!(x>0)'."},
         {{"xor"}, "Write '!=' between two comparisons in parentheses, for example '(x>0)!=(y>0)'."},
-        {{"true", "false"}, "Write a comparison, for example 'x>0'."},
+        {{"true", "false"}, "A comparison such as 'x>0' is a condition by itself."},
         {{"then", "else", "elseif", "elif"}, "Write 'if(condition, value, other value)'."},
         {{"where", "select", "ifelse", "iif", "ite", "merge"}, "Write 'if(condition, value, other value)'."},
         {{"heaviside", "step", "theta_function", "unitstep"},
@@ -45,7 +45,10 @@ namespace
         {{"arcsinh", "arsinh"}, "Did you mean 'asinh'?"},
         {{"arccosh", "arcosh"}, "Did you mean 'acosh'?"},
         {{"arctanh", "artanh"}, "Did you mean 'atanh'?"},
-        {{"tg"}, "Did you mean 'tan'?"},
+        {{"tg", "tangens", "tangent"}, "Did you mean 'tan'?"},
+        {{"sinus", "sine"}, "Did you mean 'sin'?"},
+        {{"cosinus", "cosine"}, "Did you mean 'cos'?"},
+        {{"deg", "degrees", "rad", "radians"}, "Angles are in radians; write 'pi/180' times one in degrees."},
         {{"ctg", "cotan", "ctan"}, "Did you mean 'cot'?"},
         {{"cosec"}, "Did you mean 'csc'?"},
         {{"sech"}, "Write '1/cosh(x)' with the argument in the place of x."},
@@ -196,7 +199,8 @@ const ExpressionFunction *find_expression_function(const std::string &name)
   return found == functions.end() ? nullptr : &*found;
 }
 
-std::string remedy_for_unknown_name(const std::string &name, const ExpressionScope &scope)
+std::string remedy_for_unknown_name(const std::string &name, const bool is_called,
+                                    const ExpressionScope &scope)
 {
   const std::vector<std::string> variables = scope.variables();
   const std::string word = small(name);
@@ -218,6 +222,15 @@ std::string remedy_for_unknown_name(const std::string &name, const ExpressionSco
   for (const Stranger &stranger : strangers())
     if (std::find(stranger.names.begin(), stranger.names.end(), word) != stranger.names.end())
       return stranger.remedy;
+  for (const std::string &variable : variables)
+    for (const std::string &function : functions)
+      if (!is_called && name == function + variable &&
+          find_expression_function(function)->least_arguments == 1)
+        return "Write '" + function + "(" + variable + ")'.";
+  if (name.size() == 2 &&
+      std::find(variables.begin(), variables.end(), name.substr(0, 1)) != variables.end() &&
+      std::find(variables.begin(), variables.end(), name.substr(1)) != variables.end())
+    return "Write '" + name.substr(0, 1) + "*" + name.substr(1) + "' for a product.";
   // In short names one letter makes another word.
   const std::string similar = nearest(name, names);
   if (!similar.empty() && edit_distance(name, similar) <= (name.size() < 5 ? 1 : 2))

@@ -163,10 +163,10 @@ TEST(Expression, NumbersAreNoConditions)
   expect_refusal("if(x,1,2)",
                  "has the number 'x' where a condition is expected, as the first argument of 'if'. "
                  "Write a comparison, for example 'x>0'.");
-  expect_refusal("if(1,1,2)", "Write a comparison, for example '1>0'.");
+  expect_refusal("if(1,1,2)", "Write a comparison, for example 'x>0'.");
   expect_refusal("x ? 1 : 2", "in front of '?'. Write a comparison, for example 'x>0'.");
   expect_refusal("if(x && y>0,1,2)", "beside '&&'. Write a comparison, for example 'x>0'.");
-  expect_refusal("if(x>0 || 1,1,2)", "beside '||'. Write 'x>0 || x>1'.");
+  expect_refusal("if(x>0 || 1,1,2)", "beside '||'. Write a comparison, for example 'x>0'.");
   expect_refusal("if(x==1 || 2,1,2)", "beside '||'. Write 'x==1 || x==2'.");
   expect_refusal("if(!x,1,2)", "for example '!(x>0)'.");
   expect_refusal("if(!x>0,1,2)", "for example '!(x>0)'.");
@@ -213,7 +213,7 @@ TEST(Expression, ProductsHaveTheirSign)
 
 TEST(Expression, PowersAndNumbersAreTakenAtTheirWord)
 {
-  expect_refusal("(x^2+y^2)^1/2", "Put the exponent into parentheses, as in x^(1/2).");
+  expect_refusal("(x^2+y^2)^1/2", "Write '(x^2+y^2)^(1/2)'.");
   EXPECT_DOUBLE_EQ(value_of("(x^2+y^2)^(1/2)"), std::hypot(x, y));
   expect_refusal("--x", "as in -(-x).");
   for (const char *const number : {"1e-3e", "1e", "1.2.3", "1_000", "0x10", "2e+x"})
@@ -268,6 +268,9 @@ TEST(Expression, UnknownNamesGetTheNearestOne)
            {"SIN(x)", "Did you mean 'sin'? Names are in small letters."},
            {"X+1", "Did you mean 'x'? Names are in small letters."},
            {"x1", "Did you mean 'x'?"},
+           {"xy", "Write 'x*y' for a product."},
+           {"2*sinx", "Write 'sin(x)'."},
+           {"sinus(x)", "Did you mean 'sin'?"},
            {"sqr(x)", "Write 'x^2' with the argument in the place of x."},
            {"sqrtt(x)", "Did you mean 'sqrt'?"},
            {"aatn2(y,x)", "Did you mean 'atan2'?"},

@@ -55,8 +55,11 @@ const std::vector<ExpressionOperator> &expression_operators();
 /** The function of that name, or a null pointer. */
 const ExpressionFunction *find_expression_function(const std::string &name);
 
-/** What to write instead of a name that is not known, as sentences. */
-std::string remedy_for_unknown_name(const std::string &name, const ExpressionScope &scope);
+/**
+ * What to write instead of a name that is not known, as sentences.
+ * @param is_called whether arguments in parentheses follow it
+ */
+std::string remedy_for_unknown_name(const std::string &name, bool is_called, const ExpressionScope &scope);
 
 /** The variables, functions, constants and operators with their meaning, as 'gemmule --help-expressions'
  * prints them. */
