@@ -72,7 +72,9 @@ CoupledSystem<dim>::CoupledSystem(const AllParameters &parameters_, const MPI_Co
 template <int dim>
 void CoupledSystem<dim>::initialise()
 {
-  const InitialMembrane<dim> initial(parameters, communicator);
+  InitialMembrane<dim> initial(parameters, communicator);
+  initial.find(triangulation);
+  warnings_of_initial_state = initial.warnings();
   initial.make_mesh(triangulation, level_set, geometry, adaptation);
   // The error of the flow is known once there is a flow: it may ask for another mesh.
   for (unsigned int i = 1;; ++i)

@@ -14,9 +14,14 @@ using namespace dealii;
 
 namespace
 {
-  // At a zero of the interpolated level set the expression may have this part of its largest value in the
-  // cell. Interpolation errors are far smaller, jumps and poles far larger.
+  // Beside a zero, narrowed down to round-off, the expression may have this part of its largest value in the
+  // cell. Continuous functions have far less, jumps and poles far more.
   constexpr double largest_remainder = 0.3;
+  // In edges of the cell, how far from the zero set the mesh may have a membrane.
+  constexpr double largest_stray = 0.5;
+  // Places that the search for a mesh may still have to refine.
+  template <int dim>
+  constexpr std::size_t most_details = dim == 2 ? 2000 : 50000;
   // Sheets of opposite normals that are closer than this part of a cell are taken for a contact.
   constexpr double smallest_gap = 0.5;
   // A shape loses more than this of its area or arclength in a distance function if the mesh is too coarse
@@ -122,15 +127,54 @@ void InitialChecks<dim>::number_of_cells(const std::size_t n_cells, const unsign
 }
 
 template <int dim>
-void InitialChecks<dim>::level_set(const unsigned int n_crossed, const unsigned int n_negative,
-                                   const std::string &not_finite, const MPI_Comm communicator) const
+void InitialChecks<dim>::found(const FoundMembrane<dim> &membrane, const bool is_negative,
+                               const MPI_Comm communicator) const
 {
-  Parameters::raise_together("Membrane/Level set", not_finite, communicator);
-  if (Utilities::MPI::sum(n_crossed, communicator) == 0)
-    fail_level_set(std::string("has no zero in the box: it is ") +
-                   (Utilities::MPI::sum(n_negative, communicator) > 0 ? "negative" : "positive") +
+  Parameters::raise_together("Membrane/Level set", membrane.not_finite, communicator);
+  if (membrane.level_with_too_many_cells > 0)
+    number_of_cells(parameters.mesh.largest_number_of_cells + 1, membrane.level_with_too_many_cells);
+  if (membrane.roots.empty())
+    fail_level_set(std::string("has no zero in the box that the finest cells would resolve: it is ") +
+                   (is_negative ? "negative" : "positive") +
                    " everywhere. Give a function that is negative inside the vesicle and positive outside, "
-                   "for example x^2+2*y^2-0.25, or a finer 'Mesh/Bulk level' if the vesicle is tiny.");
+                   "for example x^2+2*y^2-0.25, or a finer 'Mesh/Finest level' if the vesicle is tiny.");
+  for (const auto &root : membrane.roots)
+    if (!(std::abs(root.remainder) <= largest_remainder * root.largest_value))
+      fail_level_set("changes its sign without passing through zero near " + coordinates(root.point()) +
+                     ": it has the value " + Parameters::short_number(root.remainder) +
+                     " there. Give a continuous function without jumps and poles, for example "
+                     "x^2+2*y^2-0.25.");
+}
+
+template <int dim>
+void InitialChecks<dim>::fail_detail(const Point<dim> &place, const double cell_size) const
+{
+  fail_level_set("has a detail near " + coordinates(place) +
+                 " that the mesh does not resolve, since its cells there have edges of " +
+                 Parameters::to_text(cell_size) +
+                 ": a vesicle, a filament or a gap is smaller. Leave the detail out, or raise "
+                 "'Mesh/Membrane level', or 'Mesh/Finest level' with 'Mesh/Curvature tolerance' and "
+                 "'Mesh/Cells per gap'.");
+}
+
+template <int dim>
+void InitialChecks<dim>::number_of_details(const std::vector<LostPart<dim>> &lost) const
+{
+  if (lost.size() <= most_details<dim>)
+    return;
+  fail_level_set("has details that cells with edges of " +
+                 Parameters::to_text(parameters.domain.cell_size(lost.front().level)) +
+                 " do not resolve in " + std::to_string(lost.size()) + " places, one of them near " +
+                 coordinates(lost.front().point()) +
+                 ". Give a smoother function, or a finer 'Mesh/Membrane level'.");
+}
+
+template <int dim>
+void InitialChecks<dim>::nothing_lost(const std::vector<LostPart<dim>> &lost) const
+{
+  for (const auto &part : lost)
+    if (part.is_whole)
+      fail_detail(part.point(), parameters.domain.cell_size(part.level));
 }
 
 template <int dim>
@@ -151,22 +195,13 @@ MembraneProjection<dim> InitialChecks<dim>::project(const std::vector<MembranePa
 }
 
 template <int dim>
-void InitialChecks<dim>::membrane(const Function<dim> &expression,
+void InitialChecks<dim>::membrane(const ZeroSetDistance<dim> &distance,
                                   const MembraneProjection<dim> &membrane) const
 {
   const auto &patches = membrane.get_patches();
   for (const auto &sample : membrane.samples())
-  {
-    double largest = 0.;
-    for (const double value : patches[sample.patch].level_set)
-      largest = std::max(largest, std::abs(value));
-    const double value = expression.value(sample.point);
-    if (!(std::abs(value) <= largest_remainder * largest))
-      fail_level_set("changes its sign without passing through zero near " + coordinates(sample.point) +
-                     ": it has the value " + Parameters::short_number(value) +
-                     " there. Give a continuous function without jumps and poles, for example "
-                     "x^2+2*y^2-0.25, or a finer 'Mesh/Membrane level' if the shape has fine details.");
-  }
+    if (std::abs(distance.value(sample.point)) > largest_stray * patches[sample.patch].size)
+      fail_detail(sample.point, patches[sample.patch].size);
   if (const Point<dim> *const point = find_contact(membrane))
     fail_level_set("describes a membrane that touches or crosses itself, or comes closer to itself than half "
                    "a cell, near " +

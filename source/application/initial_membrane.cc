@@ -5,9 +5,10 @@
 #include <gemmule/mesh/box_mesh.h>
 #include <gemmule/parameters/errors.h>
 #include <gemmule/parameters/expression.h>
+#include <gemmule/parameters/expression_bounds.h>
 #include <gemmule/parameters/section.h>
 
-#include <cmath>
+#include <unordered_set>
 
 namespace Gemmule
 {
@@ -17,26 +18,8 @@ namespace
 {
   // Criteria that depend on each other through the mesh settle in a few sweeps.
   constexpr unsigned int largest_number_of_sweeps = 12;
-
-  /** @throws ParameterError where the function is not finite */
-  template <int dim>
-  bool lattice_sign_change(const Function<dim> &function, const Point<dim> &corner, const double h)
-  {
-    constexpr unsigned int n = 8;
-    bool negative = false, positive = false;
-    const unsigned int n_points = dim == 2 ? (n + 1) * (n + 1) : (n + 1) * (n + 1) * (n + 1);
-    for (unsigned int i = 0; i < n_points; ++i)
-    {
-      Point<dim> p = corner;
-      for (unsigned int d = 0, rest = i; d < dim; ++d, rest /= n + 1)
-        p[d] += h * (rest % (n + 1)) / n;
-      const double value = function.value(p);
-      if (!std::isfinite(value))
-        check_finite(function, {p}, "Membrane/Level set");
-      (value < 0. ? negative : positive) = true;
-    }
-    return negative && positive;
-  }
+  // How far the membrane may lie beside that of the cut cells, in edges of the cell.
+  constexpr double largest_offset = 0.1;
 } // namespace
 
 template <int dim>
@@ -57,37 +40,89 @@ InitialMembrane<dim>::InitialMembrane(const AllParameters &parameters_, const MP
 }
 
 template <int dim>
-void InitialMembrane<dim>::find(Triangulation &triangulation) const
+void InitialMembrane<dim>::find(const Triangulation &triangulation)
 {
+  const BoxLattice<dim> box(triangulation);
+  const auto &mesh = parameters.mesh;
+  std::vector<LatticeKey<dim>> cubes;
+  for (const auto &cell : triangulation.active_cell_iterators())
+    if (cell->is_locally_owned())
+      cubes.push_back(box.position_of_corner(cell->vertex(0), mesh.bulk_level));
+
+  const ExpressionBounds<dim> bounds(*expression_tree<dim>(parameters.membrane.level_set));
+  const MembraneSearch<dim> search(
+      *shape, [&](const Point<dim> &corner, const double size) { return bounds.on_cube(corner, size); }, box,
+      {mesh.bulk_level, mesh.membrane_level, mesh.largest_level()}, mesh.largest_number_of_cells);
+  const FoundMembrane<dim> found = search.search(std::move(cubes), communicator);
+  InitialChecks<dim>(parameters).found(found, shape->value(box.lower) < 0., communicator);
+
+  if (found.blind_size > 0.)
+    search_warnings.push_back(
+        "'Membrane/Level set' has so many waves that its zeros were looked for at points " +
+        Parameters::to_text(found.blind_size) +
+        " apart: closed parts of the membrane that are smaller may have been missed. Give a "
+        "simpler expression, or a coarser 'Mesh/Finest level'.");
+  roots = found.roots;
+  std::vector<typename ZeroSetDistance<dim>::KnownPoint> points;
+  for (const auto &root : roots)
+    points.push_back({root.point(), root.spacing});
+  distance = std::make_unique<ZeroSetDistance<dim>>(*shape, points);
+}
+
+template <int dim>
+void InitialMembrane<dim>::refine_towards_membrane(Triangulation &triangulation) const
+{
+  const BoxLattice<dim> box(triangulation);
+  const unsigned int membrane_level = parameters.mesh.membrane_level;
+  // The cells that have to be refined: all that hold a root and are larger than those of the membrane.
+  std::vector<std::unordered_set<LatticeKey<dim>, LatticeKeyHash<dim>>> too_large(membrane_level);
+  for (const auto &root : roots)
+    for (unsigned int level = parameters.mesh.bulk_level; level < membrane_level; ++level)
+      too_large[level].insert(box.position_of(root.point(), level));
+
   const InitialChecks<dim> checks(parameters);
-  for (unsigned int level = parameters.mesh.bulk_level; level <= parameters.mesh.membrane_level; ++level)
+  for (unsigned int level = parameters.mesh.bulk_level; level < membrane_level; ++level)
   {
-    unsigned int n_crossed = 0, n_negative = 0;
-    std::string not_finite;
     for (const auto &cell : triangulation.active_cell_iterators())
-      if (cell->is_locally_owned() && not_finite.empty())
-      {
-        if (shape->value(cell->center()) < 0.)
-          ++n_negative;
-        try
-        {
-          if (!lattice_sign_change(*shape, cell->vertex(0), cell->extent_in_direction(0)))
-            continue;
-        }
-        catch (const ParameterError &error)
-        {
-          not_finite = error.complaint;
-          continue;
-        }
-        ++n_crossed;
-        if (cell->level() < static_cast<int>(parameters.mesh.membrane_level))
-          cell->set_refine_flag();
-      }
-    checks.level_set(n_crossed, n_negative, not_finite, communicator);
+      if (cell->is_locally_owned() && cell->level() < static_cast<int>(membrane_level) &&
+          too_large[cell->level()].count(box.position_of_corner(cell->vertex(0), cell->level())) > 0)
+        cell->set_refine_flag();
     triangulation.execute_coarsening_and_refinement();
-    checks.number_of_cells(triangulation.n_global_active_cells(),
-                           std::min(level + 1, parameters.mesh.membrane_level));
+    checks.number_of_cells(triangulation.n_global_active_cells(), level + 1);
   }
+}
+
+template <int dim>
+void InitialMembrane<dim>::cut_mesh(LevelSet<dim> &level_set, CutGeometry<dim> &geometry) const
+{
+  level_set.interpolate(*distance);
+  geometry.reinit(level_set.get_dof_handler(), level_set.values());
+}
+
+template <int dim>
+bool InitialMembrane<dim>::refine_lost_parts(Triangulation &triangulation, const LevelSet<dim> &level_set,
+                                             const CutGeometry<dim> &geometry) const
+{
+  const BoxLattice<dim> box(triangulation);
+  const unsigned int finest_level = parameters.mesh.largest_level();
+  std::vector<std::unordered_set<LatticeKey<dim>, LatticeKeyHash<dim>>> too_large(finest_level);
+  bool any = false;
+  const auto lost = find_lost_parts(level_set, geometry, *distance, roots, communicator);
+  InitialChecks<dim>(parameters).number_of_details(lost);
+  for (const auto &part : lost)
+    if (part.level < finest_level)
+    {
+      too_large[part.level].insert(box.position_of(part.point(), part.level));
+      any = true;
+    }
+  if (!any)
+    return false;
+  for (const auto &cell : triangulation.active_cell_iterators())
+    if (cell->is_locally_owned() && cell->level() < static_cast<int>(finest_level) &&
+        too_large[cell->level()].count(box.position_of_corner(cell->vertex(0), cell->level())) > 0)
+      cell->set_refine_flag();
+  triangulation.execute_coarsening_and_refinement();
+  return true;
 }
 
 template <int dim>
@@ -159,14 +194,14 @@ void InitialMembrane<dim>::make_mesh(Triangulation &triangulation, LevelSet<dim>
                                      CutGeometry<dim> &geometry, MeshAdaptation<dim> &adaptation,
                                      const std::vector<CellSample<dim>> &cells) const
 {
-  const auto cut_mesh = [&]
+  refine_towards_membrane(triangulation);
+  level_set.reinit_mesh();
+  cut_mesh(level_set, geometry);
+  while (refine_lost_parts(triangulation, level_set, geometry))
   {
     level_set.reinit_mesh();
-    level_set.interpolate(*shape);
-    geometry.reinit(level_set.get_dof_handler(), level_set.values());
-  };
-  find(triangulation);
-  cut_mesh();
+    cut_mesh(level_set, geometry);
+  }
   // Before the criteria refine towards the wall what is wrong anyway.
   check_sign(triangulation, geometry);
   InitialChecks<dim>(parameters).walls(*shape);
@@ -176,7 +211,8 @@ void InitialMembrane<dim>::make_mesh(Triangulation &triangulation, LevelSet<dim>
     check_expressions(membrane);
     if (!adaptation.adapt(membrane, cells))
       break;
-    cut_mesh();
+    level_set.reinit_mesh();
+    cut_mesh(level_set, geometry);
   }
   check_wall(triangulation, geometry, adaptation.limited(parameters.mesh.largest_level()));
 }
@@ -197,14 +233,19 @@ template <int dim>
 void InitialMembrane<dim>::make_level_set(const Point<dim> &origin, LevelSet<dim> &level_set,
                                           CutGeometry<dim> &geometry) const
 {
-  level_set.interpolate(*shape);
-  geometry.reinit(level_set.get_dof_handler(), level_set.values());
-  const auto patches = gather_bare_patches(geometry, communicator);
+  cut_mesh(level_set, geometry);
   const InitialChecks<dim> checks(parameters);
+  checks.nothing_lost(find_lost_parts(level_set, geometry, *distance, roots, communicator));
+  const auto patches = gather_bare_patches(geometry, communicator);
   const MembraneProjection<dim> membrane = checks.project(patches, origin);
-  checks.membrane(*shape, membrane);
+  checks.membrane(*distance, membrane);
   const double area = geometry.enclosed_volume(), arclength = geometry.measure();
-  level_set.set_distance(membrane);
+  // The cut cells have the membrane up to an error of interpolation, the expression has it exactly.
+  level_set.set_distance(membrane,
+                         [&](const ClosestPoint<dim> &closest) {
+                           return distance->offset(closest.point, closest.normal,
+                                                   largest_offset * patches[closest.patch].size);
+                         });
   geometry.reinit(level_set.get_dof_handler(), level_set.values());
   checks.distance(area, geometry.enclosed_volume(), arclength, geometry.measure());
 }

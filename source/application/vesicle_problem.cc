@@ -23,9 +23,9 @@ namespace
   template <int dim>
   std::vector<std::string> warnings_of(const CoupledSystem<dim> &system)
   {
+    std::vector<std::string> warnings = system.initial_warnings();
     if (system.get_surface() == nullptr)
-      return {};
-    std::vector<std::string> warnings;
+      return warnings;
     if (const auto warning = system.get_model().ill_posedness_warning())
       warnings.push_back(*warning);
     // A 10-90 % width of a phase boundary is 6.2 Cahn numbers.
@@ -34,11 +34,11 @@ namespace
     const double size = parameters.domain.cell_size(parameters.mesh.phase_boundary_level),
                  cahn_number = parameters.membrane.cahn_number;
     if (size > cahn_numbers_per_cell * cahn_number && parameters.mesh.cells_per_phase_boundary == 0.)
-      warnings.push_back("the cells of 'Mesh/Phase boundary level' have edges of " + rounded(size) + ", " +
-                         rounded(size / cahn_number) +
-                         " times 'Membrane/Cahn number' = " + rounded(cahn_number) +
-                         ": about three times is the most that resolves phase boundaries. Raise the level, or set "
-                         "'Mesh/Cells per phase boundary' and 'Mesh/Finest level'.");
+      warnings.push_back(
+          "the cells of 'Mesh/Phase boundary level' have edges of " + rounded(size) + ", " +
+          rounded(size / cahn_number) + " times 'Membrane/Cahn number' = " + rounded(cahn_number) +
+          ": about three times is the most that resolves phase boundaries. Raise the level, or set "
+          "'Mesh/Cells per phase boundary' and 'Mesh/Finest level'.");
     return warnings;
   }
 } // namespace

@@ -22,6 +22,9 @@ namespace
   // A cell whose centre is farther away than this will not be cut after a step.
   constexpr double reach_in_cells = 1.6;
 
+  // Halved with each level: 5e-11 of the finest cells.
+  constexpr double tiny_part_of_coarse_cell = 5e-11;
+
   /** Is the cell beside a larger one that the membrane may cut after the step? It belongs to the band then,
    * however far that is in terms of its own size. */
   template <int dim, typename CellIterator>
@@ -66,7 +69,8 @@ void LevelSet<dim>::finish()
 {
   // The rules of the cut cells dislike zeros at nodes: move them off by far less than the discretisation
   // error.
-  const double tiny = 1e-10 * std::pow(0.5, triangulation.n_global_levels());
+  const double coarse_size = triangulation.begin(0)->extent_in_direction(0);
+  const double tiny = tiny_part_of_coarse_cell * coarse_size * std::pow(0.5, triangulation.n_global_levels());
   phi.update_ghost_values();
   constraints.distribute(phi);
   for (unsigned int i = 0; i < phi.locally_owned_size(); ++i)
@@ -134,10 +138,17 @@ void LevelSet<dim>::set_nodes(const MembraneProjection<dim> &membrane,
 }
 
 template <int dim>
-void LevelSet<dim>::set_distance(const MembraneProjection<dim> &membrane)
+void LevelSet<dim>::set_distance(const MembraneProjection<dim> &membrane,
+                                 const std::function<double(const ClosestPoint<dim> &)> &offset)
 {
   set_nodes(
-      membrane, [&](const Point<dim> &x) { return membrane.project(x).distance; }, nullptr);
+      membrane,
+      [&](const Point<dim> &x)
+      {
+        const ClosestPoint<dim> closest = membrane.project(x);
+        return offset ? closest.distance - offset(closest) : closest.distance;
+      },
+      nullptr);
 }
 
 template <int dim>

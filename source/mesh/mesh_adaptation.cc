@@ -23,11 +23,7 @@ template <int dim>
 typename MeshAdaptation<dim>::Key
 MeshAdaptation<dim>::key(const typename Triangulation::cell_iterator &cell) const
 {
-  const double size = context.box.cell_size(cell->level());
-  Key k;
-  for (unsigned int d = 0; d < dim; ++d)
-    k[d] = static_cast<int>(std::lround((cell->vertex(0)[d] - context.box.lower[d]) / size));
-  return k;
+  return context.box.position_of_corner(cell->vertex(0), cell->level());
 }
 
 template <int dim>
@@ -83,10 +79,7 @@ typename MeshAdaptation<dim>::NeededCells MeshAdaptation<dim>::needed_cells(cons
   for (unsigned int s = 0; s < samples.size(); ++s)
   {
     const unsigned int level = limited(levels[s]);
-    const double size = context.box.cell_size(level);
-    Key center;
-    for (unsigned int d = 0; d < dim; ++d)
-      center[d] = static_cast<int>(std::floor((samples[s].point[d] - context.box.lower[d]) / size));
+    const Key center = context.box.position_of(samples[s].point, level);
     if (!visited[level].insert(center).second)
       continue;
     for (int i = 0; i < n_neighbours; ++i)

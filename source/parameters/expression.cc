@@ -57,7 +57,8 @@ namespace
         throw Parameters::ExpressionError("has an empty component.", "");
       // Blanks in the place of the components before, so that the places in messages are those in the whole.
       result += Parameters::checked_expression(
-          std::string(begin, ' ') + expression.substr(begin, end - begin), scope);
+                    std::string(begin, ' ') + expression.substr(begin, end - begin), scope)
+                    .text;
       if (end == expression.size())
         return result;
       result += ";";
@@ -126,6 +127,12 @@ std::unique_ptr<dealii::Function<dim>> make_function(const std::string &expressi
 }
 
 template <int dim>
+Parameters::ExpressionTree expression_tree(const std::string &expression)
+{
+  return Parameters::checked_expression(expression, {dim, /*of_time =*/false}).tree;
+}
+
+template <int dim>
 std::string not_finite_complaint(const dealii::Function<dim> &function,
                                  const std::vector<dealii::Point<dim>> &points)
 {
@@ -159,6 +166,7 @@ void check_finite(const dealii::Function<dim> &function, const std::vector<deali
 #define INSTANTIATE(dim)                                                                                     \
   template std::unique_ptr<dealii::Function<dim>> make_function<dim>(const std::string &, unsigned int,      \
                                                                      const std::string &, bool);             \
+  template Parameters::ExpressionTree expression_tree<dim>(const std::string &);                             \
   template std::string not_finite_complaint<dim>(const dealii::Function<dim> &,                              \
                                                  const std::vector<dealii::Point<dim>> &);                   \
   template void check_finite<dim>(const dealii::Function<dim> &, const std::vector<dealii::Point<dim>> &,    \

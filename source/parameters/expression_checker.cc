@@ -8,6 +8,7 @@ namespace
 {
   using Part = ExpressionPart;
   using Token = ExpressionToken;
+  using Kind = ExpressionNode::Kind;
 
   // Deeper ones are no formulas, and each level takes some of the stack.
   constexpr unsigned int deepest = 600;
@@ -48,16 +49,17 @@ namespace
                                                            : token.text);
     }
 
-    std::string run()
+    CheckedExpression run()
     {
       const Part whole = conditional();
       if (here().kind != Token::end)
         refuse_rest();
       if (whole.is_truth)
         complaints.about_result(whole);
-      std::string result;
+      CheckedExpression result;
       for (const std::string &word : written)
-        result += word;
+        result.text += word;
+      result.tree = whole.tree;
       return result;
     }
 
@@ -79,7 +81,8 @@ namespace
       const Part second = conditional();
       if (first.is_truth != second.is_truth)
         complaints.about_choice(first, second);
-      return Part(first.is_truth, condition.begin, second.end);
+      return Part(first.is_truth, condition.begin, second.end,
+                  node(Kind::conditional, "", {condition, first, second}));
     }
 
     Part disjunction()
@@ -108,7 +111,7 @@ namespace
     {
       if (!left.is_truth || !right.is_truth)
         complaints.about_combination(left, operation, right);
-      return Part(true, left.begin, right.end);
+      return Part(true, left.begin, right.end, node(Kind::operation, operation, {left, right}));
     }
 
     Part comparison()
@@ -128,7 +131,7 @@ namespace
       const bool is_order = relations[0] != "==" && relations[0] != "!=";
       if (operands[0].is_truth != operands[1].is_truth || (operands[0].is_truth && is_order))
         complaints.about_comparison(operands[0], relations[0], operands[1]);
-      Part result(true, operands[0].begin, operands[1].end);
+      Part result(true, operands[0].begin, operands[1].end, node(Kind::operation, relations[0], operands));
       result.operands = operands;
       result.relation = relations[0];
       return result;
@@ -174,7 +177,7 @@ namespace
       const Part operand = power();
       if (operand.is_truth)
         complaints.about_sign(operation.text, operand);
-      return Part(false, operation.position, operand.end);
+      return Part(false, operation.position, operand.end, node(Kind::operation, operation.text, {operand}));
     }
 
     Part power()
@@ -195,7 +198,7 @@ namespace
     {
       if (left.is_truth || right.is_truth)
         complaints.about_arithmetic(left, operation, right);
-      return Part(false, left.begin, right.end);
+      return Part(false, left.begin, right.end, node(Kind::operation, operation, {left, right}));
     }
 
     Part primary()
@@ -221,7 +224,8 @@ namespace
     Part number()
     {
       const Token &token = tokens[next++];
-      return Part(false, token.position, token.behind());
+      return Part(false, token.position, token.behind(),
+                  std::make_shared<ExpressionNode>(std::stod(token.text)));
     }
 
     Part enclosed()
@@ -255,7 +259,7 @@ namespace
         complaints.about_negation(operand);
       written[mark] = "(";
       written[next - 1] += "==0)";
-      return Part(true, tokens[mark].position, operand.end);
+      return Part(true, tokens[mark].position, operand.end, node(Kind::operation, "!", {operand}));
     }
 
     Part named()
@@ -263,7 +267,7 @@ namespace
       const Token &token = tokens[next++];
       const bool is_called = here().kind == Token::opening_parenthesis;
       if (scope.has_quantity(token.text))
-        return Part(false, token.position, token.behind());
+        return Part(false, token.position, token.behind(), quantity(token.text));
       const ExpressionFunction *const function = find_expression_function(token.text);
       if (function == nullptr)
         refuse_unknown(token, is_called);
@@ -303,7 +307,26 @@ namespace
       for (const Part &argument : arguments)
         if (!function.has_condition && argument.is_truth)
           complaints.about_argument(function.name, argument);
-      return Part(function.has_condition && arguments[1].is_truth, token.position, tokens[next - 1].behind());
+      return Part(function.has_condition && arguments[1].is_truth, token.position, tokens[next - 1].behind(),
+                  function.has_condition ? node(Kind::conditional, "", arguments)
+                                         : node(Kind::function, function.name, arguments));
+    }
+
+    static ExpressionTree node(const Kind kind, const std::string &name, const std::vector<Part> &arguments)
+    {
+      std::vector<ExpressionTree> trees;
+      for (const Part &argument : arguments)
+        trees.push_back(argument.tree);
+      return std::make_shared<ExpressionNode>(kind, name, trees);
+    }
+
+    /** A variable, or the number that a constant stands for. */
+    static ExpressionTree quantity(const std::string &name)
+    {
+      for (const ExpressionConstant &constant : expression_constants())
+        if (constant.name == name)
+          return std::make_shared<ExpressionNode>(constant.value);
+      return node(Kind::variable, name, {});
     }
 
     [[noreturn]] Part refuse_missing_operand() const
@@ -388,7 +411,7 @@ namespace
   };
 } // namespace
 
-std::string checked_expression(const std::string &expression, const ExpressionScope &scope)
+CheckedExpression checked_expression(const std::string &expression, const ExpressionScope &scope)
 {
   if (expression.size() > longest)
     throw ExpressionError("has " + std::to_string(expression.size()) + " characters, more than the " +

@@ -107,6 +107,8 @@ public:
   unsigned int lowered_levels() const { return adaptation.lowered_levels(); }
   /** How often the mesh has changed since the object was made. */
   unsigned int mesh_changes() const { return n_mesh_changes; }
+  /** What initialise() has to say of the expressions. */
+  const std::vector<std::string> &initial_warnings() const { return warnings_of_initial_state; }
   /** Has the mesh changed within the time levels that the estimated errors of the last try look at? */
   bool mesh_is_new() const { return n_steps_on_mesh < 3; }
   dealii::TimerOutput &timer() { return timer_output; }
@@ -171,6 +173,7 @@ private:
   double last_area_correction = 0.;
   unsigned int steps_since_remeshing = 0;
   unsigned int n_mesh_changes = 0;
+  std::vector<std::string> warnings_of_initial_state;
   unsigned int n_steps_on_mesh = 0;          ///< accepted ones since the last change
   std::vector<CellSample<dim>> flow_samples; ///< of the current state; empty if no criterion needs them
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <gemmule/application/lost_parts.h>
 #include <gemmule/geometry/membrane_projection.h>
 #include <gemmule/parameters/all_parameters.h>
 
@@ -24,24 +25,26 @@ public:
   void number_of_cells(std::size_t n_cells, unsigned int level) const;
 
   /**
-   * The level set on the way to the membrane: it has to cross zero somewhere, and to be finite where it was
-   * evaluated. Collective.
-   * @param n_crossed cells of this rank in which it has both signs
-   * @param n_negative cells of this rank at whose centre it is negative
-   * @param not_finite message about a point of this rank where it is not finite; empty if there is none
+   * What the search for the membrane has found: it has to have found something, no jump or pole, and no point
+   * where the level set is not finite. @p is_negative what the sign is where it found nothing. Collective.
    */
-  void level_set(unsigned int n_crossed, unsigned int n_negative, const std::string &not_finite,
-                 MPI_Comm communicator) const;
+  void found(const FoundMembrane<dim> &membrane, bool is_negative, MPI_Comm communicator) const;
+
+  /** A shape that is inaccurate in very many cells has waves that no mesh will resolve. */
+  void number_of_details(const std::vector<LostPart<dim>> &lost) const;
+
+  /** No vesicle, filament or gap may be too small for the finest cells. */
+  void nothing_lost(const std::vector<LostPart<dim>> &lost) const;
 
   /** Projection onto the zero set of the interpolated level set: there has to be one, and a normal to it. */
   MembraneProjection<dim> project(const std::vector<MembranePatch<dim>> &patches,
                                   const dealii::Point<dim> &origin) const;
 
   /**
-   * The zero set of the interpolated level set: the expression has to vanish on it, not to jump from one sign
-   * to the other or to have a pole there, and two sheets of it may not be closer than half a cell.
+   * The zero set on the mesh: nothing may be in it that is not near the zero set of the expression, and two
+   * sheets of it may not be closer than half a cell.
    */
-  void membrane(const dealii::Function<dim> &expression, const MembraneProjection<dim> &membrane) const;
+  void membrane(const ZeroSetDistance<dim> &distance, const MembraneProjection<dim> &membrane) const;
 
   /** The level set on a lattice of points on the walls of the box: it has to be positive there. */
   void walls(const dealii::Function<dim> &expression) const;
@@ -67,6 +70,8 @@ public:
   [[noreturn]] void fail_level_set(const std::string &complaint) const;
 
 private:
+  [[noreturn]] void fail_detail(const dealii::Point<dim> &place, double cell_size) const;
+
   const AllParameters &parameters;
 };
 } // namespace Gemmule

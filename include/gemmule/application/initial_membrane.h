@@ -1,7 +1,7 @@
 #pragma once
 
+#include <gemmule/application/lost_parts.h>
 #include <gemmule/geometry/cut_geometry.h>
-#include <gemmule/geometry/level_set.h>
 #include <gemmule/mesh/mesh_adaptation.h>
 #include <gemmule/parameters/all_parameters.h>
 #include <gemmule/surface/surface_solver.h>
@@ -25,6 +25,17 @@ public:
 
   /** @throws ParameterError for expressions that cannot be parsed */
   InitialMembrane(const AllParameters &parameters, MPI_Comm communicator);
+
+  /**
+   * Looks for the membrane in the whole box, which is all that is asked of the sign of the level set away
+   * from it; to be called first. Throws UserError when there is none, or the level set jumps from one sign to
+   * the other or is not finite.
+   * @param triangulation whose cells have the level of the bulk. Collective.
+   */
+  void find(const Triangulation &triangulation);
+
+  /** Warnings about what find() may have missed. */
+  const std::vector<std::string> &warnings() const { return search_warnings; }
 
   /**
    * Refines the mesh until it satisfies the criteria for the initial membrane and composition.
@@ -56,8 +67,16 @@ private:
   /** Where the membrane is, curvature and composition there. */
   std::vector<MembraneSample<dim>> samples(const dealii::Point<dim> &origin,
                                            const CutGeometry<dim> &geometry) const;
-  /** Refines towards sign changes of the expression until they have the membrane's level. */
-  void find(Triangulation &triangulation) const;
+  /** Refines towards the points that were found until their cells have the membrane's level. */
+  void refine_towards_membrane(Triangulation &triangulation) const;
+  /** Level set and cut cells of the distance from the membrane that was found. */
+  void cut_mesh(LevelSet<dim> &level_set, CutGeometry<dim> &geometry) const;
+  /**
+   * Refines the cells of parts that are too small for them, as far as the finest level allows.
+   * @return whether the mesh has changed. Collective.
+   */
+  bool refine_lost_parts(Triangulation &triangulation, const LevelSet<dim> &level_set,
+                         const CutGeometry<dim> &geometry) const;
   void check_sign(const Triangulation &triangulation, const CutGeometry<dim> &geometry) const;
   /** On the final mesh: the criteria refine towards a wall that is near. */
   void check_wall(const Triangulation &triangulation, const CutGeometry<dim> &geometry,
@@ -67,5 +86,8 @@ private:
   const AllParameters parameters;
   const MPI_Comm communicator;
   std::unique_ptr<dealii::Function<dim>> shape, concentration, total_concentration, prescribed_tension;
+  std::vector<MembraneRoot<dim>> roots; ///< one in each cell of the membrane's level, or finer ones
+  std::unique_ptr<ZeroSetDistance<dim>> distance;
+  std::vector<std::string> search_warnings;
 };
 } // namespace Gemmule

@@ -40,8 +40,13 @@ public:
   /** Nodal interpolation of a function that need not be a distance. */
   void interpolate(const dealii::Function<dim> &function);
 
-  /** Signed distance from a membrane. */
-  void set_distance(const MembraneProjection<dim> &membrane);
+  /**
+   * Signed distance from a membrane.
+   * @param offset how far the true membrane lies from a closest point, along its normal: moves the membrane
+   * of the level set there; nullptr: not at all
+   */
+  void set_distance(const MembraneProjection<dim> &membrane,
+                    const std::function<double(const ClosestPoint<dim> &)> &offset = nullptr);
 
   /**
    * The same with the sides that a level set of that membrane tells (BandLevelSet::with_side), which do not
@@ -87,6 +92,9 @@ public:
   /** phi += amount in the band: moves the membrane inwards by this length (area correction). */
   void shift(double amount);
 
+  /** Nodal values on an owned cell. */
+  LevelSetCell<dim> values_on(const typename dealii::DoFHandler<dim>::active_cell_iterator &cell) const;
+
   const dealii::DoFHandler<dim> &get_dof_handler() const { return dof_handler; }
   /** Ghosted, satisfies the hanging-node constraints. */
   const Vector &values() const { return phi; }
@@ -98,7 +106,6 @@ private:
                  const std::function<double(const dealii::Point<dim> &)> &accurate,
                  const BandLevelSet<dim> *sides, double least_width = 0.);
   void finish();
-  LevelSetCell<dim> values_on(const typename dealii::DoFHandler<dim>::active_cell_iterator &cell) const;
 
   const dealii::parallel::distributed::Triangulation<dim> &triangulation;
   const dealii::FE_Q<dim> fe;

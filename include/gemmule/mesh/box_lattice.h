@@ -1,5 +1,7 @@
 #pragma once
 
+#include <gemmule/algebra/lattice_key.h>
+
 #include <deal.II/base/point.h>
 #include <deal.II/grid/tria.h>
 
@@ -40,6 +42,24 @@ struct BoxLattice
   double cell_size(const unsigned int level) const
   {
     return std::ldexp(coarse_size, -static_cast<int>(level));
+  }
+
+  /** Position in the lattice of @p level of the cell with that lower corner. */
+  LatticeKey<dim> position_of_corner(const dealii::Point<dim> &corner, const unsigned int level) const
+  {
+    LatticeKey<dim> key;
+    for (unsigned int d = 0; d < dim; ++d)
+      key[d] = static_cast<int>(std::lround((corner[d] - lower[d]) / cell_size(level)));
+    return key;
+  }
+
+  /** Position in the lattice of @p level of the cell that holds @p x; of two that share it the upper one. */
+  LatticeKey<dim> position_of(const dealii::Point<dim> &x, const unsigned int level) const
+  {
+    LatticeKey<dim> key;
+    for (unsigned int d = 0; d < dim; ++d)
+      key[d] = static_cast<int>(std::floor((x[d] - lower[d]) / cell_size(level)));
+    return key;
   }
 
   /** Coarsest level whose cells are not larger than @p size; a large level for sizes of zero and below. */

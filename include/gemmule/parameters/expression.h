@@ -1,5 +1,7 @@
 #pragma once
 
+#include <gemmule/parameters/expression_tree.h>
+
 #include <memory>
 #include <string>
 #include <vector>
@@ -30,6 +32,13 @@ template <int dim>
 std::unique_ptr<dealii::Function<dim, double>> make_function(const std::string &expression,
                                                              unsigned int n_components,
                                                              const std::string &where, bool of_time = true);
+
+/**
+ * The expression of an initial state that make_function() has taken, taken apart.
+ * @throws Parameters::ExpressionError if make_function() would not take it
+ */
+template <int dim>
+Parameters::ExpressionTree expression_tree(const std::string &expression);
 
 /**
  * Evaluates all components of a function at the given points.

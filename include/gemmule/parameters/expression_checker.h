@@ -2,11 +2,21 @@
 
 #include <gemmule/parameters/expression_names.h>
 #include <gemmule/parameters/expression_tokens.h>
+#include <gemmule/parameters/expression_tree.h>
 
 #include <string>
 
 namespace Gemmule::Parameters
 {
+/** An expression that means what it says. */
+struct CheckedExpression
+{
+  /** For muParser, which knows no '!' and needs blanks around '&&' and '||'. */
+  std::string text;
+  /** The same, taken apart. */
+  ExpressionTree tree;
+};
+
 /**
  * Checks that an expression means what it says. muParser, which evaluates it, knows numbers only: it takes
  * -1<x<1 for (-1<x)<1, rounds a number where a condition is expected, and assigns with '='. Here every part
@@ -15,8 +25,7 @@ namespace Gemmule::Parameters
  * also two truth values. The result is a number.
  *
  * @param expression one component, without ';'
- * @return the same expression for muParser, which knows no '!' and needs blanks around '&&' and '||'
  * @throws ExpressionError
  */
-std::string checked_expression(const std::string &expression, const ExpressionScope &scope);
+CheckedExpression checked_expression(const std::string &expression, const ExpressionScope &scope);
 } // namespace Gemmule::Parameters

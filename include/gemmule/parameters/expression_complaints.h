@@ -2,17 +2,19 @@
 
 #include <gemmule/parameters/expression_names.h>
 #include <gemmule/parameters/expression_tokens.h>
+#include <gemmule/parameters/expression_tree.h>
 
 #include <string>
 #include <vector>
 
 namespace Gemmule::Parameters
 {
-/** A part of an expression: its kind and its place. */
+/** A part of an expression: its kind, its place and what it computes. */
 struct ExpressionPart
 {
-  ExpressionPart(const bool is_truth, const std::string::size_type begin, const std::string::size_type end)
-      : is_truth(is_truth), begin(begin), end(end), inner_begin(begin), inner_end(end)
+  ExpressionPart(const bool is_truth, const std::string::size_type begin, const std::string::size_type end,
+                 const ExpressionTree &tree)
+      : is_truth(is_truth), begin(begin), end(end), inner_begin(begin), inner_end(end), tree(tree)
   {
   }
 
@@ -22,6 +24,7 @@ struct ExpressionPart
   std::string::size_type begin, end;
   /** The same without the parentheses around it. */
   std::string::size_type inner_begin, inner_end;
+  ExpressionTree tree;
   /** If it is a comparison: what is compared with what. */
   std::vector<ExpressionPart> operands;
   std::string relation;
