@@ -3,6 +3,7 @@
 #include <gemmule/output/field_output.h>
 #include <gemmule/output/hdf5_file.h>
 #include <gemmule/output/rank_zero.h>
+#include <gemmule/output/xdmf.h>
 #include <gemmule/parameters/errors.h>
 
 #include <deal.II/base/geometry_info.h>
@@ -28,17 +29,30 @@ namespace
 
   /** What solution.xdmf has to say of an existing file. */
   template <int dim>
-  dealii::XDMFEntry read_entry(const Hdf5File &file, const std::string &name)
+  std::string grid_of(const Hdf5File &file, const std::string &name)
   {
-    dealii::XDMFEntry entry(name, name, file.number_attribute("/", "time"), file.extent("nodes")[0],
-                            file.extent("cells")[0], dim, dim);
+    const std::string n_points = std::to_string(file.extent("nodes")[0]);
+    const std::string n_cells = std::to_string(file.extent("cells")[0]);
+    const unsigned int n_vertices = dealii::GeometryInfo<dim>::vertices_per_cell;
+    std::string grid = "<Grid Name=\"" + name + "\" GridType=\"Uniform\">\n" +
+                       Xdmf::time(file.number_attribute("/", "time")) + "<Geometry GeometryType=\"" +
+                       (dim == 2 ? "XY" : "XYZ") + "\">" +
+                       Xdmf::data_item(n_points + " " + std::to_string(dim), name + ":/nodes") +
+                       "</Geometry>\n<Topology TopologyType=\"" +
+                       (dim == 2 ? "Quadrilateral" : "Hexahedron") + "\" NumberOfElements=\"" + n_cells +
+                       "\">" +
+                       Xdmf::data_item(n_cells + " " + std::to_string(n_vertices), name + ":/cells", "UInt") +
+                       "</Topology>\n";
     for (const std::string &field : file.members())
       if (field != "nodes" && field != "cells")
       {
         const std::vector<std::size_t> extent = file.extent(field);
-        entry.add_attribute(field, extent.size() > 1 ? extent[1] : 1);
+        const std::size_t n_components = extent.size() > 1 ? extent[1] : 1;
+        grid += Xdmf::attribute(
+            field, n_components > 1 ? "Vector" : "Scalar",
+            Xdmf::data_item(n_points + " " + std::to_string(n_components), name + ":/" + field));
       }
-    return entry;
+    return grid + "</Grid>\n";
   }
 
   /** Bytes that this rank contributes to a file, with some more for HDF5 itself. */
@@ -50,17 +64,6 @@ namespace
       numbers_per_node += filter.get_data_set_dim(set);
     return filter.n_nodes() * numbers_per_node * sizeof(double) +
            filter.n_cells() * dealii::GeometryInfo<dim>::vertices_per_cell * sizeof(unsigned int) + 65536;
-  }
-
-  template <int dim>
-  std::string xdmf_text(const std::vector<dealii::XDMFEntry> &entries)
-  {
-    std::string text = "<?xml version=\"1.0\" ?>\n<!DOCTYPE Xdmf SYSTEM \"Xdmf.dtd\" []>\n"
-                       "<Xdmf Version=\"2.0\">\n<Domain>\n"
-                       "<Grid Name=\"fields\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
-    for (const dealii::XDMFEntry &entry : entries)
-      text += entry.get_xdmf_content(1, dealii::ReferenceCells::get_hypercube<dim>());
-    return text + "</Grid>\n</Domain>\n</Xdmf>\n";
   }
 } // namespace
 
@@ -75,8 +78,20 @@ FieldWriter<dim>::FieldWriter(const std::string &directory, const MPI_Comm &comm
                  remove_later_files();
                  list_earlier_files();
                  if (n_written > 0)
-                   replace_file(directory + "/solution.xdmf", xdmf_text<dim>(entries));
+                   write_xdmf();
                });
+}
+
+template <int dim>
+void FieldWriter<dim>::list(const std::string &name)
+{
+  grids.push_back(grid_of<dim>(Hdf5File(directory + "/" + name, Hdf5File::Mode::read), name));
+}
+
+template <int dim>
+void FieldWriter<dim>::write_xdmf() const
+{
+  replace_file(directory + "/solution.xdmf", Xdmf::time_series("fields", grids));
 }
 
 template <int dim>
@@ -102,7 +117,7 @@ void FieldWriter<dim>::list_earlier_files()
     {
       const std::string name = file_name(number);
       if (std::filesystem::exists(directory + "/" + name))
-        entries.push_back(read_entry<dim>(Hdf5File(directory + "/" + name, Hdf5File::Mode::read), name));
+        list(name);
     }
     catch (const SimulationError &)
     {
@@ -142,7 +157,6 @@ void FieldWriter<dim>::write(const dealii::DataOutInterface<dim, dim> &data, con
                           ": is the disk full, or the directory write-protected? Make room and go on with "
                           "--resume.");
 
-  const dealii::XDMFEntry entry = data.create_xdmf_entry(filter, name, time, communicator);
   on_rank_zero(communicator,
                [&]()
                {
@@ -152,8 +166,8 @@ void FieldWriter<dim>::write(const dealii::DataOutInterface<dim, dim> &data, con
                  file.close();
                  // Checkpoints count on it.
                  synchronise(path);
-                 entries.push_back(entry);
-                 replace_file(directory + "/solution.xdmf", xdmf_text<dim>(entries));
+                 list(name);
+                 write_xdmf();
                });
   ++n_written;
 }

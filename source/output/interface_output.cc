@@ -2,6 +2,7 @@
 #include <gemmule/output/hdf5_file.h>
 #include <gemmule/output/interface_output.h>
 #include <gemmule/output/rank_zero.h>
+#include <gemmule/output/xdmf.h>
 
 #include <deal.II/base/exceptions.h>
 
@@ -70,12 +71,31 @@ namespace
     return {{"velocity", &InterfaceSamples<dim>::velocity}, {"normal", &InterfaceSamples<dim>::normal}};
   }
 
-  /** XDMF's reference to a dataset of numbers of the given type (Float: double precision). */
+  /** Reference to a dataset of interface.h5. */
   std::string data_item(const std::string &extents, const std::string &dataset,
                         const std::string &type = "Float")
   {
-    return "<DataItem Dimensions=\"" + extents + "\" NumberType=\"" + type + "\" Precision=\"" +
-           (type == "Float" ? "8" : "4") + "\" Format=\"HDF\">" + file_name + ":/" + dataset + "</DataItem>";
+    return Xdmf::data_item(extents, file_name + ":/" + dataset, type);
+  }
+
+  /**
+   * Reference to a list of vectors as ParaView takes them. XDMF knows vectors of three components only: in 2D
+   * a zero is joined to the two of the dataset.
+   */
+  template <int dim>
+  std::string vector_item(const std::string &n_points, const std::string &dataset)
+  {
+    const std::string item = data_item(n_points + " " + std::to_string(dim), dataset);
+    if (dim == 3)
+      return item;
+    const auto component = [&](const unsigned int c)
+    {
+      return "<DataItem ItemType=\"HyperSlab\" Dimensions=\"" + n_points +
+             " 1\"><DataItem Dimensions=\"3 2\" Format=\"XML\">0 " + std::to_string(c) + " 1 1 " + n_points +
+             " 1</DataItem>" + item + "</DataItem>";
+    };
+    return "<DataItem ItemType=\"Function\" Function=\"JOIN($0, $1, 0*$0)\" Dimensions=\"" + n_points +
+           " 3\">" + component(0) + component(1) + "</DataItem>";
   }
 } // namespace
 
@@ -167,55 +187,28 @@ void InterfaceWriter<dim>::append(const InterfaceSamples<dim> &samples)
 template <int dim>
 void InterfaceWriter<dim>::write_xdmf() const
 {
-  std::ostringstream out;
-  out << std::setprecision(17) << "<?xml version=\"1.0\"?>\n<!DOCTYPE Xdmf SYSTEM \"Xdmf.dtd\" []>\n"
-      << "<Xdmf Version=\"2.0\">\n<Domain>\n"
-      << "<Grid Name=\"membrane\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
+  std::vector<std::string> grids;
   for (const Entry &entry : entries)
   {
     const std::string points = std::to_string(entry.n_points);
     const std::string segments = std::to_string(entry.n_segments);
-    const std::string vector_extents = points + " " + std::to_string(dim);
-    const auto attribute = [&](const std::string &name, const std::string &kind, const std::string &item)
-    {
-      out << "<Attribute Name=\"" << name << "\" AttributeType=\"" << kind << "\" Center=\"Node\">" << item
-          << "</Attribute>\n";
-    };
-
-    out << "<Grid Name=\"" << entry.group << "\" GridType=\"Uniform\">\n<Time Value=\"" << entry.time
-        << "\"/>\n<Geometry GeometryType=\"" << (dim == 2 ? "XY" : "XYZ") << "\">"
-        << data_item(vector_extents, entry.group + "/points") << "</Geometry>\n";
+    std::string grid = "<Grid Name=\"" + entry.group + "\" GridType=\"Uniform\">\n" + Xdmf::time(entry.time) +
+                       "<Geometry GeometryType=\"" + (dim == 2 ? "XY" : "XYZ") + "\">" +
+                       data_item(points + " " + std::to_string(dim), entry.group + "/points") +
+                       "</Geometry>\n";
     if (entry.n_segments > 0)
-      out << "<Topology TopologyType=\"Polyline\" NodesPerElement=\"2\" NumberOfElements=\"" << segments
-          << "\">" << data_item(segments + " 2", entry.group + "/connectivity", "UInt") << "</Topology>\n";
+      grid += "<Topology TopologyType=\"Polyline\" NodesPerElement=\"2\" NumberOfElements=\"" + segments +
+              "\">" + data_item(segments + " 2", entry.group + "/connectivity", "UInt") + "</Topology>\n";
     else
-      out << "<Topology TopologyType=\"Polyvertex\" NumberOfElements=\"" << points << "\"/>\n";
-
+      grid += "<Topology TopologyType=\"Polyvertex\" NumberOfElements=\"" + points + "\"/>\n";
     for (const auto &scalar : scalars<dim>())
-      attribute(scalar.first, "Scalar", data_item(points, entry.group + "/" + scalar.first));
+      grid += Xdmf::attribute(scalar.first, "Scalar", data_item(points, entry.group + "/" + scalar.first));
     for (const auto &vector : vectors<dim>())
-    {
-      const std::string item = data_item(vector_extents, entry.group + "/" + vector.first);
-      if constexpr (dim == 3)
-        attribute(vector.first, "Vector", item);
-      else
-      {
-        // XDMF knows vectors of three components only.
-        const auto component = [&](const unsigned int c)
-        {
-          return "<DataItem ItemType=\"HyperSlab\" Dimensions=\"" + points +
-                 " 1\"><DataItem Dimensions=\"3 2\" Format=\"XML\">0 " + std::to_string(c) + " 1 1 " +
-                 points + " 1</DataItem>" + item + "</DataItem>";
-        };
-        attribute(vector.first, "Vector",
-                  "<DataItem ItemType=\"Function\" Function=\"JOIN($0, $1, 0*$0)\" Dimensions=\"" + points +
-                      " 3\">" + component(0) + component(1) + "</DataItem>");
-      }
-    }
-    out << "</Grid>\n";
+      grid +=
+          Xdmf::attribute(vector.first, "Vector", vector_item<dim>(points, entry.group + "/" + vector.first));
+    grids.push_back(grid + "</Grid>\n");
   }
-  out << "</Grid>\n</Domain>\n</Xdmf>\n";
-  replace_file(directory + "/interface.xdmf", out.str());
+  replace_file(directory + "/interface.xdmf", Xdmf::time_series("membrane", grids));
 }
 
 template class InterfaceWriter<2>;

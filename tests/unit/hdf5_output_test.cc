@@ -16,6 +16,8 @@
 #include <deal.II/numerics/vector_tools_interpolate.h>
 
 #include <cmath>
+#include <cstdlib>
+#include <limits>
 
 #include "support/output_test.h"
 
@@ -50,12 +52,15 @@ InterfaceSamples<2> circle(const double time, const double radius, const unsigne
 /** A number on each cell of a small mesh, ready to be written. */
 struct CellData
 {
-  CellData() : triangulation(MPI_COMM_WORLD)
+  explicit CellData(const MPI_Comm communicator = MPI_COMM_WORLD, const unsigned int n_refinements = 2)
+      : triangulation(communicator)
   {
     dealii::GridGenerator::hyper_cube(triangulation, -1., 1.);
-    triangulation.refine_global(2);
+    triangulation.refine_global(n_refinements);
     data.attach_triangulation(triangulation);
     values.reinit(triangulation.n_active_cells());
+    for (const auto &cell : triangulation.active_cell_iterators())
+      values[cell->active_cell_index()] = 1.f + static_cast<float>(cell->center()[0]);
     data.add_data_vector(values, "level", dealii::DataOut<2>::type_cell_data);
     data.build_patches();
   }
@@ -64,6 +69,19 @@ struct CellData
   dealii::Vector<float> values;
   dealii::DataOut<2> data;
 };
+
+/** What the text says between `Time Value="` and the next quotation mark, in order. */
+std::vector<std::string> times_of(const std::string &xdmf)
+{
+  const std::string before = "Time Value=\"";
+  std::vector<std::string> times;
+  for (auto at = xdmf.find(before); at != std::string::npos; at = xdmf.find(before, at + 1))
+  {
+    const auto first = at + before.size();
+    times.push_back(xdmf.substr(first, xdmf.find('"', first) - first));
+  }
+  return times;
+}
 } // namespace
 
 TEST_F(OutputTest, InterfaceIsReadBack)
@@ -218,6 +236,45 @@ TEST_F(ParallelOutputTest, FieldsAreReadBackAndResumed)
   // The entries of the earlier files were read from them, and must be what was said when they were written.
   EXPECT_EQ(content("solution.xdmf"), complete);
   EXPECT_NE(complete.find("solution-00002.h5:/level_set"), std::string::npos);
+}
+
+TEST_F(OutputTest, XdmfHasTheTimesToTheLastDigitAndTheSameInBothFiles)
+{
+  const std::vector<double> times = {0.,           std::numeric_limits<double>::denorm_min(),
+                                     1.2345678e-9, 0.00123456789,
+                                     0.0012345699, 0.1 + 0.2,
+                                     1. / 3.,      std::nextafter(1. / 3., 1.),
+                                     1e9 + 0.125,  std::numeric_limits<double>::max()};
+  const CellData cells(MPI_COMM_SELF);
+  const auto check = [&]()
+  {
+    const std::vector<std::string> of_fields = times_of(content("solution.xdmf"));
+    ASSERT_EQ(of_fields.size(), times.size());
+    EXPECT_EQ(times_of(content("interface.xdmf")), of_fields);
+    const Hdf5File interface(path("interface.h5"), Hdf5File::Mode::read);
+    for (unsigned int i = 0; i < times.size(); ++i)
+    {
+      EXPECT_EQ(std::strtod(of_fields[i].c_str(), nullptr), times[i]) << of_fields[i];
+      const std::string number = std::to_string(100000 + i).substr(1);
+      EXPECT_EQ(interface.number_attribute("step_" + number, "time"), times[i]);
+      const Hdf5File fields(path("solution-" + number + ".h5"), Hdf5File::Mode::read);
+      EXPECT_EQ(fields.number_attribute("/", "time"), times[i]);
+    }
+  };
+  {
+    InterfaceWriter<2> membrane(directory, MPI_COMM_SELF, Provenance());
+    FieldWriter<2> fields(directory, MPI_COMM_SELF, Provenance());
+    for (const double time : times)
+    {
+      membrane.write(circle(time, 0.5));
+      fields.write(cells.data, time);
+    }
+  }
+  check();
+  // Of a resumed run, which reads them from the HDF5 files.
+  const InterfaceWriter<2> membrane(directory, MPI_COMM_SELF, Provenance(), times.back());
+  const FieldWriter<2> fields(directory, MPI_COMM_SELF, Provenance(), times.size());
+  check();
 }
 
 TEST_F(ParallelOutputTest, FieldsThatAreDamagedOrMissingCostNoOther)

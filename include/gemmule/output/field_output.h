@@ -42,9 +42,11 @@ public:
   unsigned int n_files() const { return n_written; }
 
   /** Number of those that solution.xdmf lists; known on rank 0. */
-  std::size_t n_listed() const { return entries.size(); }
+  std::size_t n_listed() const { return grids.size(); }
 
 private:
+  void list(const std::string &file_name);
+  void write_xdmf() const;
   void remove_later_files() const;
   void list_earlier_files();
 
@@ -52,6 +54,6 @@ private:
   const MPI_Comm communicator;
   const Provenance provenance;
   unsigned int n_written = 0;
-  std::vector<dealii::XDMFEntry> entries; ///< on rank 0
+  std::vector<std::string> grids; ///< what solution.xdmf says of each file; on rank 0
 };
 } // namespace Gemmule
