@@ -59,6 +59,9 @@ namespace
   template <int dim>
   std::size_t n_bytes_here(const dealii::DataOutBase::DataOutFilter &filter)
   {
+    // Where there are no cells their number is not set.
+    if (filter.n_nodes() == 0)
+      return 0;
     std::size_t numbers_per_node = dim;
     for (unsigned int set = 0; set < filter.n_data_sets(); ++set)
       numbers_per_node += filter.get_data_set_dim(set);
@@ -139,23 +142,7 @@ void FieldWriter<dim>::write(const dealii::DataOutInterface<dim, dim> &data, con
   const std::size_t n_bytes = dealii::Utilities::MPI::sum(n_bytes_here<dim>(filter), communicator);
   on_rank_zero(communicator, [&]() { reserve_space(path, n_bytes); });
 
-  bool failed_here = false;
-  try
-  {
-    const Hdf5Silence silence;
-    data.write_hdf5_parallel(filter, path, communicator);
-  }
-  catch (const std::exception &)
-  {
-    failed_here = true;
-  }
-  // One that has failed in the middle leaves the others waiting for it within HDF5.
-  const double patience = failed_here ? 10. : std::numeric_limits<double>::infinity();
-  if (!all_processes_arrive(communicator, patience) ||
-      dealii::Utilities::MPI::logical_or(failed_here, communicator))
-    throw SimulationError("Cannot write " + path +
-                          ": is the disk full, or the directory write-protected? Make room and go on with "
-                          "--resume.");
+  write_cells(data, filter, path);
 
   on_rank_zero(communicator,
                [&]()
@@ -170,6 +157,38 @@ void FieldWriter<dim>::write(const dealii::DataOutInterface<dim, dim> &data, con
                  write_xdmf();
                });
   ++n_written;
+}
+
+template <int dim>
+void FieldWriter<dim>::write_cells(const dealii::DataOutInterface<dim, dim> &data,
+                                   const dealii::DataOutBase::DataOutFilter &cells,
+                                   const std::string &path) const
+{
+  // A rank without cells knows neither the number nor the names of the fields, and in deal.II 9.4 takes part
+  // in writing with numbers that are not set: only those with cells write.
+  const bool has_cells = cells.n_nodes() > 0;
+  MPI_Comm writers = MPI_COMM_NULL;
+  MPI_Comm_split(communicator, has_cells ? 0 : MPI_UNDEFINED, /*key =*/0, &writers);
+  bool failed_here = false;
+  try
+  {
+    const Hdf5Silence silence;
+    if (has_cells)
+      data.write_hdf5_parallel(cells, path, writers);
+  }
+  catch (const std::exception &)
+  {
+    failed_here = true;
+  }
+  // One that has failed in the middle leaves the others waiting for it within HDF5.
+  const double patience = failed_here ? 10. : std::numeric_limits<double>::infinity();
+  const bool all_are_here = all_processes_arrive(communicator, patience);
+  if (all_are_here && writers != MPI_COMM_NULL)
+    MPI_Comm_free(&writers);
+  if (!all_are_here || dealii::Utilities::MPI::logical_or(failed_here, communicator))
+    throw SimulationError("Cannot write " + path +
+                          ": is the disk full, or the directory write-protected? Make room and go on with "
+                          "--resume.");
 }
 
 template class FieldWriter<2>;

@@ -277,6 +277,39 @@ TEST_F(OutputTest, XdmfHasTheTimesToTheLastDigitAndTheSameInBothFiles)
   check();
 }
 
+// One cell: on two ranks one of them has none, the first or the last.
+TEST_F(ParallelOutputTest, FieldsOfRanksWithoutCells)
+{
+  const int n_ranks = static_cast<int>(dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD)),
+            rank = static_cast<int>(dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD));
+  for (const bool is_reversed : {false, true})
+  {
+    MPI_Comm communicator = MPI_COMM_NULL;
+    MPI_Comm_split(MPI_COMM_WORLD, 0, is_reversed ? n_ranks - rank : rank, &communicator);
+    {
+      const CellData cell(communicator, 0);
+      const unsigned int n_with_cells = dealii::Utilities::MPI::sum(
+          cell.triangulation.n_locally_owned_active_cells() > 0 ? 1u : 0u, communicator);
+      ASSERT_EQ(n_with_cells, 1u);
+      FieldWriter<2> writer(directory, communicator, Provenance());
+      writer.write(cell.data, 0.25);
+      writer.write(cell.data, 0.5);
+      if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
+      {
+        const Hdf5File file(path("solution-00001.h5"), Hdf5File::Mode::read);
+        EXPECT_EQ(file.number_attribute("/", "time"), 0.5);
+        EXPECT_EQ(file.extent("cells"), (std::vector<std::size_t>{1, 4}));
+        EXPECT_EQ(file.extent("nodes"), (std::vector<std::size_t>{4, 2}));
+        EXPECT_EQ(file.read("level"), std::vector<double>(4, 1.));
+        EXPECT_EQ(times_of(content("solution.xdmf")), (std::vector<std::string>{"0.25", "0.5"}));
+        EXPECT_NE(content("solution.xdmf").find("solution-00001.h5:/level"), std::string::npos);
+      }
+      MPI_Barrier(communicator);
+    }
+    MPI_Comm_free(&communicator);
+  }
+}
+
 TEST_F(ParallelOutputTest, FieldsThatAreDamagedOrMissingCostNoOther)
 {
   const CellData cells;

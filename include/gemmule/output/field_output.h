@@ -45,6 +45,8 @@ public:
   std::size_t n_listed() const { return grids.size(); }
 
 private:
+  void write_cells(const dealii::DataOutInterface<dim, dim> &data,
+                   const dealii::DataOutBase::DataOutFilter &cells, const std::string &path) const;
   void list(const std::string &file_name);
   void write_xdmf() const;
   void remove_later_files() const;
