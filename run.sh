@@ -34,13 +34,14 @@ fi
 # state. SIGUSR1 it passes on. In a session of its own the terminal's Ctrl-C comes here only.
 setsid "${launcher[@]}" "$gemmule" "$case_file" "$@" &
 run=$!
-trap 'kill -USR1 "$run"' INT TERM HUP USR1
+signals=(INT TERM HUP QUIT USR1 USR2 XCPU PWR)
+trap 'kill -USR1 "$run"' "${signals[@]}"
 while true; do
   status=0
   wait "$run" || status=$?
   kill -0 "$run" 2>/dev/null || break # otherwise it was a signal that ended the waiting
 done
-trap - INT TERM HUP USR1
+trap - "${signals[@]}"
 # 2 and 3: failed or stopped on the way; what has been computed is worth a picture.
 ((status == 0 || status == 2 || status == 3)) || exit "$status"
 

@@ -1,5 +1,6 @@
 #include <gemmule/algebra/arrival.h>
 #include <gemmule/application/command_line.h>
+#include <gemmule/application/termination_signals.h>
 #include <gemmule/application/vesicle_problem.h>
 #include <gemmule/output/output_directory.h>
 #include <gemmule/output/rank_zero.h>
@@ -109,6 +110,7 @@ int compute(const AllParameters &parameters, const CommandLine &command, std::ve
 int main(int argc, char **argv)
 {
   dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  TerminationSignals::keep_ignored();
   // Its own communicator: a failure may leave messages behind in that of the computation.
   const MPI_Comm communicator = dealii::Utilities::MPI::duplicate_communicator(MPI_COMM_WORLD);
   const bool speaks = dealii::Utilities::MPI::this_mpi_process(communicator) == 0;

@@ -71,6 +71,7 @@ VesicleProblem<dim>::VesicleProblem(const AllParameters &parameters_, const MPI_
     system->initialise();
 
   control = std::make_unique<StepControl>(parameters.time_stepping, 0., stops());
+  stop_conditions.setup_is_done();
   open_output(resumed ? &*resumed : nullptr, std::move(lock));
   if (resumed)
     continue_from(*resumed, notes);
@@ -171,6 +172,7 @@ int VesicleProblem<dim>::run()
     if (parameters.output.progress)
       log->progress(system->time(), parameters.end_time, row.step, row.time_step_size);
   }
+  stop_conditions.run_is_finished();
   print_timers();
   return 0;
 }

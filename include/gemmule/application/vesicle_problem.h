@@ -89,7 +89,7 @@ private:
   const AllParameters parameters;
   const MPI_Comm communicator;
   const std::string command_line;
-  const StopConditions stop_conditions;
+  StopConditions stop_conditions;
   const Provenance provenance;
   dealii::Timer wall_clock;
   double earlier_wall_time = 0.; ///< of the runs that this one continues
