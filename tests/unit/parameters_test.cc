@@ -13,6 +13,7 @@
 
 #include <cmath>
 #include <gtest/gtest.h>
+#include <limits>
 #include <sstream>
 
 #include "support/run_program.h"
@@ -56,6 +57,20 @@ TEST(Parameters, NumbersSurvivePrintingExactly)
 {
   for (const double value : {1e-7, 0.1, 1. / 3., 1e22, -std::nextafter(1., 2.), 0.05})
     EXPECT_EQ(std::stod(to_text(value)), value) << to_text(value);
+
+  // As parameters, of all magnitudes and to the last digit: what is recorded is the case that was computed.
+  const TemporaryDirectory directory;
+  for (double value = std::numeric_limits<double>::min(); value < 1e300; value *= 1e11 / 3.)
+  {
+    AllParameters original;
+    original.end_time = value;
+    original.output.interface_interval = original.output.field_interval = 0.;
+    original.output.output_times = {value / 3., std::nextafter(value, 0.), value};
+    AllParameters read;
+    read.parse(directory.write("case.prm", printed(original)));
+    EXPECT_EQ(read.end_time, value);
+    EXPECT_EQ(read.output.output_times, original.output.output_times);
+  }
 }
 
 TEST(Parameters, EveryKindOfValueSurvivesPrintingAndParsing)
