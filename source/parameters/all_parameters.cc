@@ -1,4 +1,5 @@
 #include <gemmule/parameters/all_parameters.h>
+#include <gemmule/parameters/directory_name.h>
 #include <gemmule/parameters/errors.h>
 #include <gemmule/parameters/expression.h>
 #include <gemmule/parameters/parameter_file.h>
@@ -133,6 +134,8 @@ void AllParameters::check() const
   AllParameters copy(*this);
   dealii::ParameterHandler prm;
   declare_top_level(copy, prm);
+  if (const std::string flaw = flaw_of_directory_name(output_directory); !flaw.empty())
+    throw ParameterError("Output directory", flaw);
 
   domain.check();
   fluid.check();
