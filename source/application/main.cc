@@ -2,6 +2,7 @@
 #include <gemmule/application/command_line.h>
 #include <gemmule/application/termination_signals.h>
 #include <gemmule/application/vesicle_problem.h>
+#include <gemmule/output/disk_error.h>
 #include <gemmule/output/output_directory.h>
 #include <gemmule/output/rank_zero.h>
 #include <gemmule/parameters/all_parameters.h>
@@ -11,6 +12,7 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <cerrno>
 #include <functional>
 #include <iostream>
 #include <limits>
@@ -87,9 +89,10 @@ int run_on_all(const std::function<int()> &action, const MPI_Comm communicator)
 /** Writes what was asked for. @throws SimulationError if standard output does not take it */
 void say(const std::string &text)
 {
+  errno = 0;
   std::cout << text << std::flush;
   if (!std::cout)
-    throw SimulationError("cannot write to standard output: is the disk full, or the reader gone?");
+    throw disk_error("cannot write to standard output", errno);
 }
 
 template <int dim>

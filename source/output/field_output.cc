@@ -13,6 +13,7 @@
 #include <filesystem>
 #include <iomanip>
 #include <limits>
+#include <memory>
 #include <regex>
 #include <sstream>
 
@@ -132,7 +133,11 @@ template <int dim>
 void FieldWriter<dim>::write(const dealii::DataOutInterface<dim, dim> &data, const double time)
 {
   const std::string name = file_name(n_written);
-  const std::string path = directory + "/" + name;
+  // Only what is complete has the name of an output.
+  std::unique_ptr<UnfinishedFile> unfinished;
+  const std::string path = directory + "/" + name + ".part";
+  if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
+    unfinished = std::make_unique<UnfinishedFile>(directory + "/" + name);
 
   dealii::DataOutBase::DataOutFilter filter(
       // Neighbours disagree on what belongs to a cell, so each keeps its own vertices.
@@ -142,7 +147,7 @@ void FieldWriter<dim>::write(const dealii::DataOutInterface<dim, dim> &data, con
   const std::size_t n_bytes = dealii::Utilities::MPI::sum(n_bytes_here<dim>(filter), communicator);
   on_rank_zero(communicator, [&]() { reserve_space(path, n_bytes); });
 
-  write_cells(data, filter, path);
+  write_cells(data, filter, path, n_bytes);
 
   on_rank_zero(communicator,
                [&]()
@@ -152,7 +157,7 @@ void FieldWriter<dim>::write(const dealii::DataOutInterface<dim, dim> &data, con
                  file.set_attribute("/", "time", time);
                  file.close();
                  // Checkpoints count on it.
-                 synchronise(path);
+                 unfinished->complete(/*durable =*/true);
                  list(name);
                  write_xdmf();
                });
@@ -162,7 +167,7 @@ void FieldWriter<dim>::write(const dealii::DataOutInterface<dim, dim> &data, con
 template <int dim>
 void FieldWriter<dim>::write_cells(const dealii::DataOutInterface<dim, dim> &data,
                                    const dealii::DataOutBase::DataOutFilter &cells,
-                                   const std::string &path) const
+                                   const std::string &path, const std::size_t n_bytes) const
 {
   // A rank without cells knows neither the number nor the names of the fields, and in deal.II 9.4 takes part
   // in writing with numbers that are not set: only those with cells write.
@@ -186,9 +191,7 @@ void FieldWriter<dim>::write_cells(const dealii::DataOutInterface<dim, dim> &dat
   if (all_are_here && writers != MPI_COMM_NULL)
     MPI_Comm_free(&writers);
   if (!all_are_here || dealii::Utilities::MPI::logical_or(failed_here, communicator))
-    throw SimulationError("Cannot write " + path +
-                          ": is the disk full, or the directory write-protected? Make room and go on with "
-                          "--resume.");
+    throw disk_error("Cannot write " + complete_name(path), likely_error_of_writing(path, n_bytes));
 }
 
 template class FieldWriter<2>;

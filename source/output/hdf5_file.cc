@@ -1,7 +1,8 @@
-#include <gemmule/output/disk.h>
 #include <gemmule/output/hdf5_file.h>
-#include <gemmule/parameters/errors.h>
 
+#include <cerrno>
+#include <filesystem>
+#include <fstream>
 #include <functional>
 #include <numeric>
 
@@ -39,34 +40,81 @@ Hdf5Silence::~Hdf5Silence()
   H5Eset_auto2(H5E_DEFAULT, messages, messages_data);
 }
 
+bool begins_as_hdf5(const std::string &path)
+{
+  // H5Fis_hdf5() would lock it.
+  const std::string signature = "\x89HDF\r\n\x1a\n";
+  std::string start(signature.size(), '\0');
+  std::ifstream file(path, std::ios::binary);
+  return file.read(start.data(), static_cast<std::streamsize>(start.size())) && start == signature;
+}
+
+int system_error_of_hdf5()
+{
+  const auto find = [](unsigned int, const H5E_error2_t *const error, void *const result) -> herr_t
+  {
+    // As in "unable to open file: name = 'x.h5', errno = 2, error message = 'No such file or directory'".
+    const std::string text = error->desc != nullptr ? error->desc : "", mark = "errno = ";
+    const auto place = text.find(mark);
+    int &number = *static_cast<int *>(result);
+    if (place != std::string::npos && number == 0)
+      number = std::atoi(text.c_str() + place + mark.size());
+    return 0;
+  };
+  int number = 0;
+  H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, find, &number);
+  return number;
+}
+
+void Hdf5File::fail(const std::string &doing, const int system_error) const
+{
+  const std::string what = "Cannot " + doing + " " + complete_name(path);
+  if (system_error != 0)
+    throw disk_error(what, system_error);
+  throw DiskError(what + ": the file is damaged, or no HDF5 file. " +
+                  (for_reading ? "Restore it from a copy." : "Move it away."));
+}
+
 template <typename Result>
 Result Hdf5File::check(const Result result, const std::string &doing) const
 {
   if (result >= 0)
     return result;
-  if (for_reading)
-    throw SimulationError("Cannot " + doing + " " + path +
-                          ": the file is missing or damaged. Restore it, or move it away and start anew.");
-  throw SimulationError("Cannot " + doing + " " + path +
-                        ": is the disk full, or the file damaged or write-protected? Make room and go on "
-                        "with --resume.");
+  const int error = system_error_of_hdf5();
+  fail(doing,
+       error != 0 || for_reading ? error : likely_error_of_writing(unfinished ? unfinished->path() : path));
 }
 
 Hdf5File::Hdf5File(const std::string &path, const Mode mode, const std::size_t growth)
     : path(path), for_reading(mode == Mode::read)
 {
+  if (mode == Mode::create)
+    unfinished = std::make_unique<UnfinishedFile>(path);
+  const std::string &place = unfinished ? unfinished->path() : path;
+  std::error_code error;
+  // A file that is missing must not come into being, nor one that is no HDF5 file grow.
+  const auto size_before = mode == Mode::create ? 0 : std::filesystem::file_size(path, error);
+  if (error)
+    fail("open", error.value());
+  if (mode == Mode::modify && !begins_as_hdf5(path))
+    fail("open", likely_error_of_writing(path));
   if (!for_reading)
-    reserve_space(path, growth + size_of_bookkeeping);
+    reserve_space(place, growth + size_of_bookkeeping);
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   // Handles that an exception leaves open must not keep the file open.
   H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
   // Someone who looks at the results must not stop the run that writes them.
   H5Pset_file_locking(access, /*use_file_locking =*/false, /*ignore_when_disabled =*/true);
   if (mode == Mode::create)
-    file = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access);
+    file = H5Fcreate(place.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access);
   else
-    file = H5Fopen(path.c_str(), mode == Mode::modify ? H5F_ACC_RDWR : H5F_ACC_RDONLY, access);
-  check(file, "open");
+    file = H5Fopen(place.c_str(), for_reading ? H5F_ACC_RDONLY : H5F_ACC_RDWR, access);
+  if (file >= 0)
+    return;
+  const int reason = system_error_of_hdf5();
+  if (mode == Mode::modify)
+    std::filesystem::resize_file(path, size_before, error);
+  fail("open", reason);
 }
 
 Hdf5File::~Hdf5File()
@@ -80,9 +128,15 @@ void Hdf5File::close()
   const hid_t closing = file;
   file = H5I_INVALID_HID;
   // What is small stays in the library's buffers until now: a full disk may show here only.
-  const herr_t flushed = H5Fflush(closing, H5F_SCOPE_LOCAL);
-  const herr_t closed = H5Fclose(closing);
-  check(std::min(flushed, closed), "finish");
+  const bool is_flushed = H5Fflush(closing, H5F_SCOPE_LOCAL) >= 0;
+  int error = is_flushed ? 0 : system_error_of_hdf5();
+  const bool is_closed = H5Fclose(closing) >= 0;
+  if (error == 0 && !is_closed)
+    error = system_error_of_hdf5();
+  if (!is_flushed || !is_closed)
+    fail("finish", error != 0 ? error : likely_error_of_writing(unfinished ? unfinished->path() : path));
+  if (unfinished)
+    unfinished->complete();
 }
 
 std::vector<std::string> Hdf5File::members() const

@@ -7,7 +7,6 @@
 #include <deal.II/base/exceptions.h>
 
 #include <cmath>
-#include <filesystem>
 #include <iomanip>
 #include <sstream>
 
@@ -110,7 +109,7 @@ InterfaceWriter<dim>::InterfaceWriter(const std::string &directory, const MPI_Co
 template <int dim>
 void InterfaceWriter<dim>::start(const double resume_after_time)
 {
-  if (!std::isfinite(resume_after_time) || !std::filesystem::exists(directory + "/" + file_name))
+  if (!std::isfinite(resume_after_time) || !exists(directory + "/" + file_name))
   {
     create_file();
     write_xdmf();

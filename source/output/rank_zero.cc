@@ -1,5 +1,5 @@
+#include <gemmule/output/disk_error.h>
 #include <gemmule/output/rank_zero.h>
-#include <gemmule/parameters/errors.h>
 
 #include <new>
 #include <string>
@@ -13,7 +13,8 @@ namespace
     success = 0,
     user_error = 1,
     simulation_error = 2,
-    out_of_memory = 3
+    out_of_memory = 3,
+    failed_on_disk = 4
   };
 } // namespace
 
@@ -35,6 +36,11 @@ void on_rank_zero(const MPI_Comm &communicator, const std::function<void()> &act
       report[0] = user_error;
       message = error.what();
     }
+    catch (const DiskError &error)
+    {
+      report[0] = failed_on_disk;
+      message = error.what();
+    }
     catch (const std::bad_alloc &)
     {
       report[0] = out_of_memory;
@@ -54,6 +60,8 @@ void on_rank_zero(const MPI_Comm &communicator, const std::function<void()> &act
   MPI_Bcast(message.data(), report[1], MPI_CHAR, 0, communicator);
   if (report[0] == user_error)
     throw UserError(message);
+  if (report[0] == failed_on_disk)
+    throw DiskError(message);
   if (report[0] == out_of_memory)
     throw std::bad_alloc();
   throw SimulationError(message);

@@ -1,5 +1,6 @@
+#include <gemmule/output/disk.h>
+#include <gemmule/output/rank_zero.h>
 #include <gemmule/output/run_log.h>
-#include <gemmule/parameters/errors.h>
 #include <gemmule/parameters/text.h>
 
 #include <chrono>
@@ -44,25 +45,48 @@ RunLog::Console::Console(std::ostream &stream, const bool is_terminal, std::func
 
 RunLog::RunLog(const std::string &directory, const MPI_Comm &communicator, const bool append,
                const Console &console)
-    : is_active(is_rank_zero(communicator)), console(console)
+    : communicator(communicator), is_active(is_rank_zero(communicator)), path(directory + "/log.txt"),
+      console(console)
 {
-  bool is_open = true;
-  const std::string path = directory + "/log.txt";
-  if (is_active)
-  {
-    file.open(path, append ? std::ios::app : std::ios::trunc);
-    is_open = file.is_open();
-  }
-  // All ranks or none: the others would wait for rank 0 for ever.
-  int all_open = is_open;
-  MPI_Bcast(&all_open, 1, MPI_INT, 0, communicator);
-  if (!all_open)
-    throw UserError("Cannot write " + path + ": check that the directory exists and is writable.");
+  on_rank_zero(communicator,
+               [&]()
+               {
+                 if (!append)
+                   replace_file(path, "");
+                 append_to_file(path, "", /*create =*/true);
+               });
 }
 
 RunLog::~RunLog()
 {
   end_progress_line();
+}
+
+void RunLog::check()
+{
+  std::string before;
+  std::swap(before, failure);
+  on_rank_zero(communicator,
+               [&]()
+               {
+                 if (!before.empty())
+                   throw DiskError(before);
+               });
+}
+
+void RunLog::append(const std::string &line)
+{
+  try
+  {
+    // A log without its beginning would not be known as that of a run.
+    const std::string head =
+        exists(path) ? "" : "Gemmule goes on here: log.txt was removed while the run was at work.\n";
+    append_to_file(path, head + line + '\n', /*create =*/true);
+  }
+  catch (const DiskError &error)
+  {
+    failure = error.what();
+  }
 }
 
 void RunLog::info(const std::string &text)
@@ -73,7 +97,7 @@ void RunLog::info(const std::string &text)
 void RunLog::record(const std::string &text)
 {
   if (is_active)
-    file << text << std::endl;
+    append(text);
 }
 
 void RunLog::warn(const std::string &text)
@@ -92,8 +116,8 @@ void RunLog::write_line(const std::string &line)
   if (!is_active)
     return;
   end_progress_line();
+  append(line);
   // The console may be gone.
-  file << line << std::endl;
   console.stream << line << std::endl;
 }
 

@@ -5,7 +5,10 @@
 
 #include <deal.II/base/exceptions.h>
 
+#include <algorithm>
+#include <cerrno>
 #include <cmath>
+#include <fstream>
 #include <functional>
 #include <limits>
 #include <sstream>
@@ -142,8 +145,11 @@ StatisticsWriter::StatisticsWriter(const std::string &directory, const MPI_Comm 
 void StatisticsWriter::start(const double resume_after_time)
 {
   std::string kept_rows;
-  if (std::ifstream earlier(path); std::isfinite(resume_after_time) && earlier)
+  if (std::isfinite(resume_after_time) && exists(path))
   {
+    std::ifstream earlier(path);
+    if (!earlier)
+      throw disk_error("Cannot read " + path, errno);
     std::string header;
     std::getline(earlier, header);
     if (header != header_line())
@@ -154,10 +160,6 @@ void StatisticsWriter::start(const double resume_after_time)
   }
   // A checkpoint counts on these rows.
   replace_file(path, header_line() + '\n' + kept_rows, /*durable =*/true);
-  file.open(path, std::ios::app);
-  file.precision(std::numeric_limits<double>::max_digits10);
-  if (!file)
-    throw SimulationError("Cannot append to " + path + ": check that it is writable.");
 }
 
 void StatisticsWriter::write(const StatisticsRow &row)
@@ -165,18 +167,19 @@ void StatisticsWriter::write(const StatisticsRow &row)
   on_rank_zero(communicator,
                [&]()
                {
+                 std::ostringstream line;
+                 line.precision(std::numeric_limits<double>::max_digits10);
                  const char *separator = "";
                  for (const Column &column : columns())
                  {
-                   file << separator;
-                   column.print(row, file);
+                   line << separator;
+                   column.print(row, line);
                    separator = ",";
                  }
-                 file << '\n' << std::flush;
+                 line << '\n';
+                 // Rows without their header would be of no use.
+                 append_to_file(path, line.str(), /*create =*/false);
                  ++n_written;
-                 if (!file)
-                   throw SimulationError("Cannot write to " + path +
-                                         ": is the disk full? Make room and go on with --resume.");
                });
 }
 } // namespace Gemmule

@@ -107,43 +107,65 @@ TEST_F(ParallelOutputTest, StatisticsFailureReachesAllRanks)
         for (unsigned int i = 0; i < 100; ++i)
           writer.write(StatisticsRow());
       });
-  EXPECT_NE(message.find(path("statistics.csv")), std::string::npos) << message;
-  EXPECT_NE(message.find("disk full"), std::string::npos) << message;
-  EXPECT_NE(message.find("--resume"), std::string::npos) << message;
+  EXPECT_EQ(message,
+            "Cannot write to " + path("statistics.csv") +
+                ": the file would be larger than files may be here. Raise the limit ('ulimit -f', or "
+                "that of the file system).");
 }
 
-TEST_F(ParallelOutputTest, DirectoryIsCreatedAndCleared)
+TEST_F(OutputTest, StatisticsThatCannotBeReadAreNotReplaced)
+{
+  // A folder cannot be read either, and by no user.
+  std::filesystem::create_directory(path("statistics.csv"));
+  const std::string message = message_of([&]() { StatisticsWriter(directory, MPI_COMM_SELF, 1.); });
+  EXPECT_NE(message.find("statistics.csv"), std::string::npos) << message;
+  EXPECT_TRUE(std::filesystem::is_directory(path("statistics.csv")));
+}
+
+TEST_F(OutputTest, ARowIsNotWrittenIntoAFileThatHasBeenRemoved)
+{
+  StatisticsWriter writer(directory, MPI_COMM_SELF);
+  writer.write(StatisticsRow());
+  std::filesystem::remove(path("statistics.csv"));
+  const std::string message = message_of([&]() { writer.write(StatisticsRow()); });
+  EXPECT_EQ(message, "Cannot write to " + path("statistics.csv") +
+                         ": the file or its directory does not exist. Put it back if it has been moved.");
+}
+
+TEST_F(OutputTest, ALogThatHasBeenRemovedBeginsAgain)
+{
+  std::ostringstream console;
+  RunLog log(directory, MPI_COMM_SELF, false, {console, false, []() { return 0.; }});
+  log.info("first");
+  std::filesystem::remove(path("log.txt"));
+  log.info("second");
+  EXPECT_EQ(content("log.txt"),
+            "Gemmule goes on here: log.txt was removed while the run was at work.\nsecond\n");
+  EXPECT_NO_THROW(log.check());
+}
+
+TEST_F(ParallelOutputTest, ALogThatLacksALineIsNoticedOnAllRanks)
+{
+  std::ostringstream console;
+  RunLog log(directory, MPI_COMM_WORLD, false, {console, false, []() { return 0.; }});
+  log.info("first");
+  EXPECT_NO_THROW(log.check());
+  {
+    const FullDisk full_disk(10);
+    log.info("a line that is too long");
+  }
+  const std::string message = message_of([&]() { log.check(); });
+  EXPECT_NE(message.find(path("log.txt") + ": the file would be larger"), std::string::npos) << message;
+  EXPECT_NO_THROW(log.check()) << "once is enough";
+}
+
+TEST_F(ParallelOutputTest, DirectoryIsCreatedAndAParameterFileWritten)
 {
   const std::string results = path("deep/results");
-  {
-    const OutputDirectory output(results, MPI_COMM_WORLD);
-    output.write_parameters("set End time = 1\n");
-    EXPECT_EQ(content("deep/results/parameters.prm"), "set End time = 1\n");
-    EXPECT_EQ(output.file("log.txt"), results + "/log.txt");
-  }
-  const std::vector<std::string> ours = {"statistics.csv",  "interface.h5",      "interface.xdmf",
-                                         "solution.xdmf",   "solution-00012.h5", "log.txt",
-                                         "checkpoint/state"};
-  const std::vector<std::string> foreign = {"notes.txt", "solution-best.h5", "checkpoint-of-mine"};
-  on_rank_zero(MPI_COMM_WORLD,
-               [&]()
-               {
-                 std::filesystem::create_directory(results + "/checkpoint");
-                 for (const auto &names : {ours, foreign})
-                   for (const std::string &name : names)
-                     std::ofstream(results + "/" + name) << "content";
-               });
-  {
-    const OutputDirectory resumed(results, MPI_COMM_WORLD, /*resume =*/true);
-    for (const std::string &name : ours)
-      EXPECT_TRUE(std::filesystem::exists(results + "/" + name)) << name;
-    MPI_Barrier(MPI_COMM_WORLD);
-  }
-  const OutputDirectory again(results, MPI_COMM_WORLD);
-  for (const std::string &name : ours)
-    EXPECT_EQ(std::filesystem::exists(results + "/" + name), name == "log.txt") << name;
-  for (const std::string &name : foreign)
-    EXPECT_TRUE(std::filesystem::exists(results + "/" + name)) << name;
+  const OutputDirectory output(results, MPI_COMM_WORLD);
+  output.write_parameters("set End time = 1\n");
+  EXPECT_EQ(content("deep/results/parameters.prm"), "set End time = 1\n");
+  EXPECT_EQ(output.file("log.txt"), results + "/log.txt");
 }
 
 TEST_F(ParallelOutputTest, DirectoryInUseIsRefusedOnAllRanks)

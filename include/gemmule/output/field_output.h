@@ -46,7 +46,8 @@ public:
 
 private:
   void write_cells(const dealii::DataOutInterface<dim, dim> &data,
-                   const dealii::DataOutBase::DataOutFilter &cells, const std::string &path) const;
+                   const dealii::DataOutBase::DataOutFilter &cells, const std::string &path,
+                   std::size_t n_bytes) const;
   void list(const std::string &file_name);
   void write_xdmf() const;
   void remove_later_files() const;

@@ -7,8 +7,9 @@ namespace Gemmule
 {
 /**
  * Run @p action on rank 0 alone and wait for it on all ranks; what it throws is thrown on every rank (the
- * kinds of parameters/errors.h and std::bad_alloc keep their kind, anything else becomes a SimulationError).
- * Without this a full disk would stop rank 0 and leave the others waiting for ever. Collective.
+ * kinds of parameters/errors.h, DiskError and std::bad_alloc keep their kind, anything else becomes a
+ * SimulationError). Without this a full disk would stop rank 0 and leave the others waiting for ever.
+ * Collective.
  */
 void on_rank_zero(const MPI_Comm &communicator, const std::function<void()> &action);
 } // namespace Gemmule

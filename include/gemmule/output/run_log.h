@@ -1,7 +1,6 @@
 #pragma once
 
 #include <deque>
-#include <fstream>
 #include <functional>
 #include <iosfwd>
 #include <mpi.h>
@@ -13,8 +12,8 @@
 namespace Gemmule
 {
 /**
- * Messages of a run, to log.txt and to the console, and a line that shows how far it is. Rank 0 writes;
- * every rank may call; only construction is collective.
+ * Messages of a run, to log.txt and to the console, and a line that shows how far it is. Rank 0 writes; every
+ * rank may call; only construction and check() are collective.
  */
 class RunLog
 {
@@ -36,7 +35,7 @@ public:
    * @param directory existing directory of the results
    * @param append keep what an earlier run wrote (for a run that is resumed)
    *
-   * @throws UserError when log.txt cannot be opened
+   * @throws DiskError when log.txt cannot be written
    */
   RunLog(const std::string &directory, const MPI_Comm &communicator, bool append = false,
          const Console &console = Console());
@@ -46,6 +45,12 @@ public:
 
   RunLog(const RunLog &) = delete;
   RunLog &operator=(const RunLog &) = delete;
+
+  /**
+   * Has log.txt taken everything so far? A message itself never throws: the ranks would not do so together.
+   * @throws DiskError if not; only once for each failure. Collective.
+   */
+  void check();
 
   void info(const std::string &text);
 
@@ -69,11 +74,14 @@ public:
 
 private:
   void write_line(const std::string &line);
+  void append(const std::string &line);
   void end_progress_line();
 
+  const MPI_Comm communicator;
   const bool is_active;
+  const std::string path;
   Console console;
-  std::ofstream file;
+  std::string failure; ///< why log.txt lacks something; empty if it does not
   std::set<std::string> warnings_given;
   std::size_t open_line_length = 0;           ///< characters of the progress line that is on the terminal
   std::deque<std::pair<double, double>> pace; ///< (wall clock, simulated time) of the last minute

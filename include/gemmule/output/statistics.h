@@ -1,6 +1,5 @@
 #pragma once
 
-#include <fstream>
 #include <limits>
 #include <mpi.h>
 #include <string>
@@ -80,7 +79,7 @@ public:
    * @param resume_after_time keep the rows of an existing file up to this time, cut off what is later; by
    * default a new file is started
    *
-   * @throws SimulationError when the file cannot be written, UserError when the existing file has other
+   * @throws DiskError when the file cannot be written, UserError when the existing file has other
    * columns than this version writes
    */
   StatisticsWriter(const std::string &directory, const MPI_Comm &communicator,
@@ -97,7 +96,6 @@ private:
 
   const std::string path;
   const MPI_Comm communicator;
-  std::ofstream file;
   std::size_t n_written = 0;
 };
 } // namespace Gemmule
