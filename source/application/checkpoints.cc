@@ -6,7 +6,6 @@
 
 #include <deal.II/base/mpi.h>
 
-#include <filesystem>
 #include <sstream>
 
 namespace Gemmule
@@ -22,8 +21,20 @@ namespace
     return std::to_string(statistics_columns().size());
   }
 
-  const std::string state_file = "state.h5", parameter_file = "parameters.prm",
-                    interface_file = "interface.h5";
+  const std::string state_file = CheckpointDirectory::state_file,
+                    parameter_file = CheckpointDirectory::parameter_file,
+                    interface_file = CheckpointDirectory::membrane_file;
+
+  /** Has it the form of those of this version? */
+  bool is_readable(const CheckpointDirectory::Metadata &metadata)
+  {
+    const auto has = [&](const std::string &name, const std::string &value)
+    {
+      const auto entry = metadata.find(name);
+      return entry != metadata.end() && entry->second == value;
+    };
+    return has("schema_version", schema_version) && has("statistics_columns", n_statistics_columns());
+  }
 
   bool may_change(const std::string &name)
   {
@@ -36,7 +47,8 @@ namespace
   void check_fixed_parameters(const std::string &checkpoint, const AllParameters &present)
   {
     AllParameters of_checkpoint;
-    of_checkpoint.parse(checkpoint + "/" + parameter_file);
+    // Where the results were is of no importance, and may be a name that is refused today.
+    of_checkpoint.parse(checkpoint + "/" + parameter_file, {"Output directory=."});
     const std::vector<std::string> changes = changed_fixed_parameters(of_checkpoint, present);
     if (changes.empty())
       return;
@@ -60,6 +72,13 @@ std::vector<std::string> changed_fixed_parameters(const AllParameters &of_checkp
   return changes;
 }
 
+bool can_be_resumed(const std::string &results)
+{
+  std::vector<std::string> ignored;
+  const auto checkpoint = CheckpointDirectory(results).newest_good(ignored);
+  return checkpoint && is_readable(checkpoint->metadata);
+}
+
 template <int dim>
 Checkpoints<dim>::Checkpoints(const AllParameters &parameters, const MPI_Comm communicator)
     : parameters(parameters), communicator(communicator), directory(parameters.output_directory)
@@ -81,18 +100,18 @@ RunState<dim> Checkpoints<dim>::load(std::vector<std::string> &notes)
                                 "checkpoint in '" + parameters.output_directory + "'.";
           for (const std::string &note : notes)
             message += " " + note;
-          throw UserError(message + " Start the run anew without --resume, or name the right directory with "
-                                    "--output.");
+          throw UserError(message +
+                          (notes.empty() ? " Leave out --resume to begin a new run, or name"
+                                         : " Restore one from a copy, or leave out --resume to "
+                                           "begin anew (the results are kept in a folder "
+                                           "'earlier-run' there), or name") +
+                          " the right directory with --output.");
         }
-        const auto has = [&](const std::string &name, const std::string &value)
-        {
-          const auto entry = checkpoint->metadata.find(name);
-          return entry != checkpoint->metadata.end() && entry->second == value;
-        };
-        if (!has("schema_version", schema_version) || !has("statistics_columns", n_statistics_columns()))
+        if (!is_readable(checkpoint->metadata))
           throw UserError("--resume: " + checkpoint->path +
                           " was written by another version of gemmule, in a form that this one does not "
-                          "read. Resume with that version, or start anew without --resume.");
+                          "read. Resume with that version, or begin a new run in another directory with "
+                          "--output and without --resume.");
         check_fixed_parameters(checkpoint->path, parameters);
         for (const unsigned int number : directory.numbers())
           if (number > checkpoint->number)
@@ -124,13 +143,9 @@ RunState<dim> Checkpoints<dim>::load(std::vector<std::string> &notes)
 template <int dim>
 void Checkpoints<dim>::restore_results()
 {
-  on_rank_zero(communicator,
-               [&]()
-               {
-                 const std::string results = parameters.output_directory + "/" + interface_file;
-                 copy_file(loaded_path + "/" + interface_file, results + ".part");
-                 std::filesystem::rename(results + ".part", results);
-               });
+  on_rank_zero(
+      communicator, [&]()
+      { copy_file(loaded_path + "/" + interface_file, parameters.output_directory + "/" + interface_file); });
 }
 
 template <int dim>
@@ -151,6 +166,15 @@ std::string Checkpoints<dim>::write(RunState<dim> &state, const Provenance &prov
   last_step = state.row.step;
   since_last.restart();
   return dealii::Utilities::MPI::broadcast(communicator, last_path, 0);
+}
+
+template <int dim>
+std::string Checkpoints<dim>::how_to_go_on() const
+{
+  if (!exists(parameters.output_directory))
+    return " The output directory has been moved or removed while the run was at work: put it back and go on "
+           "with --resume, or repeat the command.";
+  return directory.has_complete() ? " Then go on with --resume." : " Then repeat the command.";
 }
 
 template <int dim>

@@ -2,6 +2,7 @@
 #include <gemmule/application/coupled_system.h>
 #include <gemmule/application/reporting.h>
 #include <gemmule/application/vesicle_problem.h>
+#include <gemmule/output/disk_error.h>
 #include <gemmule/output/output_directory.h>
 #include <gemmule/output/rank_zero.h>
 #include <gemmule/parameters/errors.h>
@@ -52,16 +53,37 @@ VesicleProblem<dim>::VesicleProblem(const AllParameters &parameters_, const MPI_
 {
   checkpoints = std::make_unique<Checkpoints<dim>>(parameters, communicator);
   membrane = std::make_unique<InterfaceSamples<dim>>();
+  try
+  {
+    set_up(resume);
+  }
+  catch (const DiskError &error)
+  {
+    const SimulationError reason = advised(error);
+    if (directory)
+      directory->remove_begun_results();
+    throw reason;
+  }
+}
+
+template <int dim>
+void VesicleProblem<dim>::set_up(const bool resume)
+{
+  // What is wrong with the directory is found before anything is computed, and before anything is read that
+  // another run may be changing.
+  std::unique_ptr<DirectoryLock> lock;
+  bool begins_anew = false;
+  on_rank_zero(communicator,
+               [&]()
+               {
+                 lock = OutputDirectory::check(parameters.output_directory, resume);
+                 begins_anew = resume && OutputDirectory::has_only_begun(parameters.output_directory);
+               });
+  begins_anew = Utilities::MPI::broadcast(communicator, begins_anew, 0);
   std::vector<std::string> notes;
   std::optional<RunState<dim>> resumed;
-  std::unique_ptr<DirectoryLock> lock;
-  if (resume)
-  {
-    // Before anything is read that another run may be changing.
-    on_rank_zero(communicator,
-                 [&]() { lock = DirectoryLock::acquire_existing(parameters.output_directory); });
+  if (resume && !begins_anew)
     resumed = checkpoints->load(notes);
-  }
 
   // The case first: a mistake in it must not cost the results of an earlier run.
   system = std::make_unique<CoupledSystem<dim>>(parameters, communicator);
@@ -72,20 +94,30 @@ VesicleProblem<dim>::VesicleProblem(const AllParameters &parameters_, const MPI_
 
   control = std::make_unique<StepControl>(parameters.time_stepping, 0., stops());
   stop_conditions.setup_is_done();
-  open_output(resumed ? &*resumed : nullptr, std::move(lock));
+  open_output(resumed ? &*resumed : nullptr, std::move(lock), notes);
   if (resumed)
-    continue_from(*resumed, notes);
+    continue_from(*resumed);
+  if (begins_anew)
+    notes.push_back(
+        "--resume: the run in this directory had ended before its first checkpoint. It begins anew.");
+  for (const std::string &note : notes)
+    log->warn(note);
 }
 
 template <int dim>
-void VesicleProblem<dim>::open_output(const RunState<dim> *resumed, std::unique_ptr<DirectoryLock> lock)
+void VesicleProblem<dim>::open_output(const RunState<dim> *resumed, std::unique_ptr<DirectoryLock> lock,
+                                      std::vector<std::string> &notes)
 {
   const double resume_after_time =
       resumed != nullptr ? resumed->row.time : -std::numeric_limits<double>::infinity();
   directory = std::make_unique<OutputDirectory>(parameters.output_directory, communicator, resumed != nullptr,
                                                 std::move(lock));
   if (resumed != nullptr)
+  {
+    if (const std::string note = directory->move_foreign_files(resumed->n_field_files); !note.empty())
+      notes.push_back(note);
     checkpoints->restore_results();
+  }
   log = std::make_unique<RunLog>(directory->path(), communicator, resumed != nullptr);
   std::ostringstream values;
   parameters.print(values);
@@ -128,10 +160,11 @@ void VesicleProblem<dim>::announce() const
   for (const auto &[name, value] : provenance.entries())
     log->record(name + (value.find('\n') == std::string::npos ? ": " : ":\n") + value);
   const std::string cells = std::to_string(mesh.n_global_active_cells()) + " cells";
-  if (!directory->earlier_run().empty())
-    log->warn("the directory held a run that had not finished. Its results are in " +
-              directory->earlier_run() + " now, and --resume --output " + directory->earlier_run() +
-              " continues it.");
+  if (const std::string &earlier = directory->earlier_run(); !earlier.empty())
+    log->warn("the directory held a run that " + directory->reason_of_move() + ". Its results are in " +
+              earlier + " now" +
+              (can_be_resumed(earlier) ? ", and --resume --output " + earlier + " continues it."
+                                       : "; it has no checkpoint that this version could continue."));
   if (is_resumed)
     log->info("resumed at t = " + rounded(row.time) + " after " + std::to_string(row.step) +
               " steps; results in " + directory->path() + "; " + cells);
@@ -146,15 +179,38 @@ void VesicleProblem<dim>::announce() const
 }
 
 template <int dim>
+SimulationError VesicleProblem<dim>::advised(const DiskError &error) const
+{
+  return SimulationError(error.what() + checkpoints->how_to_go_on());
+}
+
+template <int dim>
 int VesicleProblem<dim>::run()
 {
   announce();
+  try
+  {
+    return run_steps();
+  }
+  catch (const DiskError &error)
+  {
+    const SimulationError reason = advised(error);
+    log_end(reason.what());
+    directory->remove_begun_results();
+    throw reason;
+  }
+}
+
+template <int dim>
+int VesicleProblem<dim>::run_steps()
+{
   if (!is_resumed)
   {
     report();
     write_output_if_due(false);
+    // From now on there is something to resume, whatever happens.
+    write_checkpoint();
   }
-
   else if (control->finished())
   {
     // It was stopped where it ends now.
@@ -174,6 +230,7 @@ int VesicleProblem<dim>::run()
   }
   stop_conditions.run_is_finished();
   print_timers();
+  log->check();
   return 0;
 }
 

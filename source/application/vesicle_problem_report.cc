@@ -3,8 +3,8 @@
 #include <gemmule/application/coupled_system.h>
 #include <gemmule/application/reporting.h>
 #include <gemmule/application/vesicle_problem.h>
+#include <gemmule/output/disk_error.h>
 #include <gemmule/output/run_log.h>
-#include <gemmule/parameters/errors.h>
 #include <gemmule/time/step_control.h>
 
 #include <algorithm>
@@ -36,11 +36,15 @@ void VesicleProblem<dim>::write_results()
     write_output_if_due(control->finished());
     if (control->finished() || checkpoints->is_due(row.step))
       write_checkpoint();
+    log->check();
+  }
+  catch (const DiskError &)
+  {
+    throw; // the log gets it with the advice
   }
   catch (const SimulationError &error)
   {
-    log->info("stopped at t = " + rounded(row.time) + " after " + std::to_string(row.step) +
-              " steps: " + error.what());
+    log_end(error.what());
     throw;
   }
 }

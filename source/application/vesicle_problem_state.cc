@@ -16,7 +16,7 @@ namespace
 } // namespace
 
 template <int dim>
-void VesicleProblem<dim>::continue_from(RunState<dim> &state, const std::vector<std::string> &notes)
+void VesicleProblem<dim>::continue_from(RunState<dim> &state)
 {
   is_resumed = true;
   control->restore(state.step_control);
@@ -28,8 +28,6 @@ void VesicleProblem<dim>::continue_from(RunState<dim> &state, const std::vector<
   last_repair = state.last_repair;
   earlier_wall_time = state.wall_time;
 
-  for (const std::string &note : notes)
-    log->warn(note);
   // What is known on rank 0 only is compared there only; the other ranks' log is silent.
   const auto compare = [&](const std::string &what, const std::size_t present, const std::size_t written)
   {
@@ -69,8 +67,14 @@ void VesicleProblem<dim>::save_last_state(const std::string &reason)
            return "interface.h5";
          });
   try_to("The state of that step", [&] { return write_checkpoint(); });
+  log_end(reason + saved);
+}
+
+template <int dim>
+void VesicleProblem<dim>::log_end(const std::string &reason)
+{
   log->info("stopped at t = " + rounded(row.time) + " after " + std::to_string(row.step) +
-            " steps: " + reason + saved);
+            " steps: " + reason);
 }
 
 template <int dim>
@@ -98,10 +102,12 @@ int VesicleProblem<dim>::stop(const std::string &reason)
   const std::string path = write_checkpoint();
   log->info("stopped by " + reason + " at t = " + rounded(row.time) + " after " + std::to_string(row.step) +
             " steps; the state is saved in " + path + ", and --resume continues from it.");
+  log->check();
   return exit_code_stopped;
 }
 
-template void VesicleProblem<2>::continue_from(RunState<2> &, const std::vector<std::string> &);
+template void VesicleProblem<2>::continue_from(RunState<2> &);
+template void VesicleProblem<2>::log_end(const std::string &);
 template void VesicleProblem<2>::save_last_state(const std::string &);
 template std::string VesicleProblem<2>::write_checkpoint();
 template int VesicleProblem<2>::stop(const std::string &);

@@ -46,8 +46,7 @@ std::string VesicleProblem<dim>::make_step()
   {
     // Of what kind it may be, it need not have happened on all ranks, and not where the state is whole: what
     // there is to go on with is the last checkpoint.
-    log->info("stopped at t = " + rounded(row.time) + " after " + std::to_string(row.step) +
-              " steps: " + error.what());
+    log_end(error.what());
     throw;
   }
 }

@@ -106,8 +106,10 @@ void refine_to_cells(parallel::distributed::Triangulation<dim> &triangulation,
       n_wrong += wanted.count({here.level, here.position}) == 0;
     }
   if (Utilities::MPI::sum(n_wrong, communicator) > 0 || triangulation.n_global_active_cells() != cells.size())
-    throw SimulationError("The mesh of the checkpoint does not fit into the box: it was written by another "
-                          "version of gemmule, or is damaged. Start the run anew without --resume.");
+    throw SimulationError(
+        "The mesh of the checkpoint does not fit into the box: it was written by another "
+        "version of gemmule. Resume with that version, or begin a new run in another directory "
+        "with --output and without --resume.");
 }
 
 #define GEMMULE_INSTANTIATE(dim)                                                                             \

@@ -1,5 +1,4 @@
 #include <gemmule/output/checkpoint_directory.h>
-#include <gemmule/parameters/errors.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -11,7 +10,7 @@ namespace Gemmule
 {
 namespace
 {
-  const std::string metadata_name = "metadata.txt";
+  constexpr const char *metadata_name = CheckpointDirectory::metadata_file;
   const std::string file_prefix = "file ";
   const std::string last_line_prefix = "checksum of the lines above = ";
 
@@ -49,29 +48,41 @@ std::vector<unsigned int> CheckpointDirectory::numbers() const
 {
   std::vector<unsigned int> found;
   std::error_code error;
-  for (const auto &entry : std::filesystem::directory_iterator(directory, error))
+  for (const std::string &name : names_in(directory, error))
   {
-    const std::string name = entry.path().filename().string();
     const bool is_number =
         name.size() >= 5 && name.size() <= 9 && name.find_first_not_of("0123456789") == std::string::npos;
-    if (is_number && entry.is_directory())
+    std::error_code ignored;
+    if (is_number && std::filesystem::is_directory(directory + "/" + name, ignored))
       found.push_back(static_cast<unsigned int>(std::stoul(name)));
   }
   std::sort(found.begin(), found.end());
   return found;
 }
 
+bool CheckpointDirectory::is_complete(const unsigned int number) const
+{
+  return exists(path_of(number) + "/" + metadata_name);
+}
+
+bool CheckpointDirectory::has_complete() const
+{
+  const std::vector<unsigned int> all = numbers();
+  return std::any_of(all.begin(), all.end(),
+                     [this](const unsigned int number) { return is_complete(number); });
+}
+
 CheckpointDirectory::Metadata CheckpointDirectory::read(const unsigned int number) const
 {
   const std::string path = path_of(number);
-  if (!std::filesystem::exists(path + "/" + metadata_name))
+  if (!is_complete(number))
     throw SimulationError("it is incomplete: the run ended while it was written.");
   const std::string text = content_of(path + "/" + metadata_name);
   const std::string::size_type last_line = text.rfind(last_line_prefix);
   if (last_line == std::string::npos ||
       text.substr(last_line) !=
           last_line_prefix + hexadecimal(Checksum::of_text(text.substr(0, last_line)).crc) + "\n")
-    throw SimulationError(metadata_name + " is damaged.");
+    throw SimulationError(std::string(metadata_name) + " is damaged.");
 
   Metadata metadata;
   std::istringstream lines(text.substr(0, last_line));
@@ -87,7 +98,7 @@ CheckpointDirectory::Metadata CheckpointDirectory::read(const unsigned int numbe
       continue;
     }
     const std::string file = name.substr(file_prefix.size());
-    if (!std::filesystem::exists(path + "/" + file))
+    if (!exists(path + "/" + file))
       throw SimulationError(file + " is missing.");
     const std::string present = to_text(Checksum::of_file(path + "/" + file));
     if (present != value)
@@ -119,9 +130,7 @@ std::string CheckpointDirectory::begin()
   std::error_code error;
   std::filesystem::create_directories(path_of(*in_work), error);
   if (error)
-    throw SimulationError("Cannot create " + path_of(*in_work) + " (" + error.message() +
-                          "): is the disk full, or the directory write-protected? Make room and go on with "
-                          "--resume.");
+    throw disk_error("Cannot create " + path_of(*in_work), error.value());
   return path_of(*in_work);
 }
 
@@ -133,15 +142,14 @@ void CheckpointDirectory::complete(const Metadata &metadata, const unsigned int 
   text << "# Written last: a checkpoint without this file is not complete.\n";
   for (const auto &[name, value] : metadata)
     text << name << " = " << value << '\n';
-  std::vector<std::string> files;
-  for (const auto &entry : std::filesystem::directory_iterator(path))
-    files.push_back(entry.path().filename().string());
-  std::sort(files.begin(), files.end());
-  for (const std::string &file : files)
+  std::error_code error;
+  for (const std::string &file : names_in(path, error))
   {
     synchronise(path + "/" + file);
     text << file_prefix << file << " = " << to_text(Checksum::of_file(path + "/" + file)) << '\n';
   }
+  if (error)
+    throw disk_error("Cannot read " + path, error.value());
   const Checksum of_lines_above = Checksum::of_text(text.str());
   text << last_line_prefix << hexadecimal(of_lines_above.crc) << '\n';
 
@@ -153,8 +161,8 @@ void CheckpointDirectory::complete(const Metadata &metadata, const unsigned int 
   std::vector<unsigned int> complete_ones, others;
   for (const unsigned int number : numbers())
   {
-    const bool is_good = std::filesystem::exists(path_of(number) + "/" + metadata_name) &&
-                         std::find(damaged.begin(), damaged.end(), number) == damaged.end();
+    const bool is_good =
+        is_complete(number) && std::find(damaged.begin(), damaged.end(), number) == damaged.end();
     (is_good ? complete_ones : others).push_back(number);
   }
   const std::size_t n_old = complete_ones.size() - std::min<std::size_t>(number_kept, complete_ones.size());
@@ -164,13 +172,27 @@ void CheckpointDirectory::complete(const Metadata &metadata, const unsigned int 
   in_work.reset();
 }
 
-void CheckpointDirectory::remove(const unsigned int number) const
+void CheckpointDirectory::remove(const unsigned int number) const noexcept
 {
+  std::error_code ignored;
+  const std::string path = path_of(number);
   // The metadata first: a kill in between leaves one that is incomplete, not one that looks damaged. What
   // cannot be removed only takes space.
+  std::filesystem::remove(path + "/" + metadata_name, ignored);
+  for (const char *const name : {metadata_file, state_file, parameter_file, membrane_file})
+    for (const char *const suffix : {"", ".part"})
+      std::filesystem::remove(path + "/" + name + suffix, ignored);
+  std::filesystem::remove(path, ignored);
+}
+
+void CheckpointDirectory::remove_all() const noexcept
+{
+  for (const unsigned int number : numbers())
+    remove(number);
   std::error_code ignored;
-  std::filesystem::remove(path_of(number) + "/" + metadata_name, ignored);
-  std::filesystem::remove_all(path_of(number), ignored);
+  // Where it is a link, somebody wants the checkpoints to be elsewhere.
+  if (!std::filesystem::is_symlink(directory, ignored))
+    std::filesystem::remove(directory, ignored);
 }
 
 void CheckpointDirectory::abandon() noexcept

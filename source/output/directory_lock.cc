@@ -11,9 +11,21 @@ namespace Gemmule
 {
 namespace
 {
+  const std::string beginning = "process ";
+
   std::string path_in(const std::string &directory)
   {
     return directory + "/.lock";
+  }
+
+  /** @return descriptor, or negative */
+  int open_lock(const std::string &directory, const int flags)
+  {
+    // Nobody's file elsewhere shall be written to through a link, and none wait for the other end of a pipe.
+    const int common = O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC;
+    const int file = open(path_in(directory).c_str(), O_RDWR | common | flags, 0666);
+    // That of another user can be locked as well.
+    return file < 0 && errno == EACCES ? open(path_in(directory).c_str(), O_RDONLY | common) : file;
   }
 
   /** What the holder of the lock has written about itself; it may not have come to that yet. */
@@ -29,20 +41,20 @@ namespace
     std::array<char, 256> host{};
     if (gethostname(host.data(), host.size() - 1) != 0)
       host[0] = '\0';
-    return "process " + std::to_string(getpid()) + (host[0] != '\0' ? std::string(" on ") + host.data() : "");
+    return beginning + std::to_string(getpid()) + (host[0] != '\0' ? std::string(" on ") + host.data() : "");
   }
 } // namespace
 
 std::unique_ptr<DirectoryLock> DirectoryLock::acquire(const std::string &directory)
 {
-  const int file = open(path_in(directory).c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+  const int file = open_lock(directory, O_CREAT);
   // Whether the directory can be written to is checked elsewhere, with a message of its own.
   return std::unique_ptr<DirectoryLock>(new DirectoryLock(directory, file));
 }
 
 std::unique_ptr<DirectoryLock> DirectoryLock::acquire_existing(const std::string &directory)
 {
-  const int file = open(path_in(directory).c_str(), O_RDWR | O_CLOEXEC);
+  const int file = open_lock(directory, 0);
   if (file < 0)
     return nullptr;
   return std::unique_ptr<DirectoryLock>(new DirectoryLock(directory, file));
@@ -64,6 +76,10 @@ DirectoryLock::DirectoryLock(const std::string &directory, const int file) : fil
                     ". Wait until it has ended, stop it, or choose another directory with --output or the "
                     "parameter 'Output directory'.");
   }
+  // What others have written into a file of this name stays.
+  const std::string before = content_of(file);
+  if (!before.empty() && before.compare(0, beginning.size(), beginning) != 0)
+    return;
   // A full disk is no reason to stop here: the text only makes the message above clearer.
   const std::string text = this_process();
   if (ftruncate(file, 0) != 0 || pwrite(file, text.data(), text.size(), 0) < 0)

@@ -260,23 +260,59 @@ INSTANTIATE_TEST_SUITE_P(, ParameterFileInAPipe, ::testing::Values(1u, 2u),
                          [](const auto &info)
                          { return std::to_string(info.param) + (info.param == 1 ? "Rank" : "Ranks"); });
 
+
+TEST_F(BadPermissions, DirectoryThatCannotBeSearchedOrRead)
+{
+  using std::filesystem::perms;
+  directory.write("case.prm", "subsection Mesh\nset Membrane level = 4\nset Phase boundary level = 4\nend\n");
+  std::filesystem::create_directory(directory.path / "closed");
+  std::filesystem::create_directory(directory.path / "unreadable");
+  std::filesystem::permissions(directory.path / "closed", perms::none);
+  std::filesystem::permissions(directory.path / "unreadable", perms::owner_write | perms::owner_exec |
+                                                                  perms::others_write | perms::others_exec);
+  const std::string choose = "choose another one with --output or the parameter 'Output directory'.";
+  for (const std::string options : {"", " --resume"})
+  {
+    expect_message(
+        "case.prm --output closed/run" + options,
+        "Cannot reach the output directory 'closed/run' (Permission denied): change the permissions "
+        "above it, or " +
+            choose);
+    expect_message("case.prm --output closed" + options,
+                   "Cannot write to the output directory 'closed': change its permissions, or " + choose);
+    expect_message(
+        "case.prm --output unreadable" + options,
+        "Cannot read the output directory 'unreadable' (Permission denied): change its permissions, "
+        "or " +
+            choose);
+  }
+  std::filesystem::permissions(directory.path / "unreadable", perms::all);
+  EXPECT_TRUE(std::filesystem::is_empty(directory.path / "unreadable"));
+}
+
 using EarlierResults = BadInput;
 
 TEST_F(EarlierResults, SurviveAMistake)
 {
-  std::filesystem::create_directory(directory.path / "results");
+  directory.write("case.prm", "set Output directory = results\nset End time = 1e-4\n"
+                              "subsection Mesh\nset Membrane level = 4\nset Phase boundary level = 4\nend\n"
+                              "subsection Output\nset Field output interval = 1e-4\nend\n");
+  const Result first = run_gemmule(directory, "case.prm");
+  ASSERT_EQ(first.exit_code, 0) << first.err;
   const std::initializer_list<std::string> names = {"statistics.csv", "log.txt",           "parameters.prm",
                                                     "interface.h5",   "solution-00000.h5", "solution.xdmf"};
+  std::vector<std::string> before;
   for (const auto &name : names)
-    directory.write("results/" + name, "earlier " + name);
-  directory.write("case.prm", "set Output directory = results\n");
+    before.push_back(directory.read("results/" + name));
   for (const char *wrong : {"End tim=1", "Mesh/Membrane level=9", "Membrane/Level set=1+x^2",
                             "Membrane/Level set=(x-0.8)^2+y^2-0.25", "Membrane/Initial total concentration=x",
                             "Membrane/Double well=unknown", "Domain/Boundary velocity=x; y"})
   {
     message_of(std::string("case.prm --set '") + wrong + "'");
+    std::vector<std::string> after;
     for (const auto &name : names)
-      EXPECT_EQ(directory.read("results/" + name), "earlier " + name) << wrong;
+      after.push_back(directory.read("results/" + name));
+    EXPECT_EQ(after, before) << wrong;
   }
 }
 } // namespace Gemmule::Testing

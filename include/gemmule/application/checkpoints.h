@@ -21,6 +21,10 @@ namespace Gemmule
 std::vector<std::string> changed_fixed_parameters(const AllParameters &of_checkpoint,
                                                   const AllParameters &present);
 
+/** Is there a checkpoint below this directory of results that is whole, and that this version can continue?
+ */
+bool can_be_resumed(const std::string &results);
+
 /**
  * Writes the state of a run to checkpoints and reads it again (doc/checkpoints.md). Rank 0 does so for all.
  * All functions but the constructor are collective.
@@ -50,7 +54,13 @@ public:
   bool is_due(unsigned int step) const;
 
   /**
-   * Writes one. Throws SimulationError when the disk does not take it; earlier ones are then as they were.
+   * What to do once the reason is removed that results could not be written: a sentence to follow the message
+   * of a DiskError. Not collective: what one rank sees.
+   */
+  std::string how_to_go_on() const;
+
+  /**
+   * Writes one. Throws DiskError when the disk does not take it; earlier ones are then as they were.
    * @return its path
    */
   std::string write(RunState<dim> &state, const Provenance &provenance);

@@ -5,6 +5,7 @@
 #include <gemmule/output/run_log.h>
 #include <gemmule/output/statistics.h>
 #include <gemmule/parameters/all_parameters.h>
+#include <gemmule/parameters/errors.h>
 
 #include <deal.II/base/timer.h>
 
@@ -26,6 +27,7 @@ class InterfaceWriter;
 template <int dim>
 struct InterfaceSamples;
 class DirectoryLock;
+class DiskError;
 class OutputDirectory;
 class StepControl;
 template <int dim>
@@ -48,8 +50,18 @@ public:
   int run();
 
 private:
-  void open_output(const RunState<dim> *resumed, std::unique_ptr<DirectoryLock> lock);
-  void continue_from(RunState<dim> &state, const std::vector<std::string> &notes);
+  /** All of the constructor. @throws DiskError besides */
+  void set_up(bool resume);
+  /** @param notes gets what the log has to warn of */
+  void open_output(const RunState<dim> *resumed, std::unique_ptr<DirectoryLock> lock,
+                   std::vector<std::string> &notes);
+  void continue_from(RunState<dim> &state);
+  /** run() without advice about the disk. */
+  int run_steps();
+  /** The message of @p error, and how to go on after it. */
+  SimulationError advised(const DiskError &error) const;
+  /** Writes to the log where the run ends, and why. */
+  void log_end(const std::string &reason);
   std::vector<double> stops() const;
   void announce() const;
   /**
