@@ -39,9 +39,9 @@ namespace
     return text + ")";
   }
 
-  /** A point where two sheets of opposite normals nearly meet, if there is one. */
+  /** A sample where two sheets of opposite normals nearly meet, if there is one. */
   template <int dim>
-  const Point<dim> *find_contact(const MembraneProjection<dim> &membrane)
+  const typename MembraneProjection<dim>::Sample *find_contact(const MembraneProjection<dim> &membrane)
   {
     const auto &samples = membrane.samples();
     const auto &patches = membrane.get_patches();
@@ -74,7 +74,7 @@ namespace
           if (sample.normal * samples[other].normal < -0.5 &&
               sample.point.distance(samples[other].point) <
                   smallest_gap * std::min(patches[sample.patch].size, patches[samples[other].patch].size))
-            return &sample.point;
+            return &sample;
       }
     return nullptr;
   }
@@ -132,7 +132,7 @@ void InitialChecks<dim>::found(const FoundMembrane<dim> &membrane, const bool is
 {
   Parameters::raise_together("Membrane/Level set", membrane.not_finite, communicator);
   if (membrane.level_with_too_many_cells > 0)
-    number_of_cells(parameters.mesh.largest_number_of_cells + 1, membrane.level_with_too_many_cells);
+    number_of_cells(membrane.n_cells_of_that_level, membrane.level_with_too_many_cells);
   if (membrane.roots.empty())
     fail_level_set(std::string("has no zero in the box that the finest cells would resolve: it is ") +
                    (is_negative ? "negative" : "positive") +
@@ -187,10 +187,9 @@ MembraneProjection<dim> InitialChecks<dim>::project(const std::vector<MembranePa
   }
   catch (const SimulationError &)
   {
-    fail_level_set(
-        "has no membrane on the mesh: either its gradient vanishes where it is zero, or what it "
-        "describes is smaller than a cell. Give a function that passes through zero with a slope, "
-        "for example x^2+2*y^2-0.25 and not (x^2+2*y^2-0.25)^3, or a finer 'Mesh/Membrane level'.");
+    fail_level_set("has no membrane on the mesh: what it describes is smaller than a cell. Leave it out, or "
+                   "give a finer "
+                   "'Mesh/Membrane level'.");
   }
 }
 
@@ -202,12 +201,18 @@ void InitialChecks<dim>::membrane(const ZeroSetDistance<dim> &distance,
   for (const auto &sample : membrane.samples())
     if (std::abs(distance.value(sample.point)) > largest_stray * patches[sample.patch].size)
       fail_detail(sample.point, patches[sample.patch].size);
-  if (const Point<dim> *const point = find_contact(membrane))
-    fail_level_set("describes a membrane that touches or crosses itself, or comes closer to itself than half "
-                   "a cell, near " +
-                   coordinates(*point) +
-                   ". Give a shape of one or several closed curves that stay apart, or a finer "
-                   "'Mesh/Membrane level'.");
+  const auto *const contact = find_contact(membrane);
+  if (contact == nullptr)
+    return;
+  // Two sides of something small, or two sheets?
+  const double size = patches[contact->patch].size;
+  if (distance.curvature(contact->point) * size > 1.)
+    fail_detail(contact->point, size);
+  fail_level_set("describes a membrane that touches or crosses itself, or comes closer to itself than half "
+                 "a cell, near " +
+                 coordinates(contact->point) +
+                 ". Give a shape of one or several closed curves that stay apart, or a finer "
+                 "'Mesh/Membrane level'.");
 }
 
 template <int dim>

@@ -105,22 +105,22 @@ bool InitialMembrane<dim>::refine_lost_parts(Triangulation &triangulation, const
 {
   const BoxLattice<dim> box(triangulation);
   const unsigned int finest_level = parameters.mesh.largest_level();
-  std::vector<std::unordered_set<LatticeKey<dim>, LatticeKeyHash<dim>>> too_large(finest_level);
-  bool any = false;
   const auto lost = find_lost_parts(level_set, geometry, *distance, roots, communicator);
   InitialChecks<dim>(parameters).number_of_details(lost);
+  std::vector<std::unordered_set<LatticeKey<dim>, LatticeKeyHash<dim>>> too_large(finest_level);
   for (const auto &part : lost)
     if (part.level < finest_level)
-    {
-      too_large[part.level].insert(box.position_of(part.point(), part.level));
-      any = true;
-    }
-  if (!any)
-    return false;
+      too_large[part.level].insert(part.cell);
+  unsigned int n_refined = 0;
   for (const auto &cell : triangulation.active_cell_iterators())
     if (cell->is_locally_owned() && cell->level() < static_cast<int>(finest_level) &&
         too_large[cell->level()].count(box.position_of_corner(cell->vertex(0), cell->level())) > 0)
+    {
       cell->set_refine_flag();
+      ++n_refined;
+    }
+  if (Utilities::MPI::sum(n_refined, communicator) == 0)
+    return false;
   triangulation.execute_coarsening_and_refinement();
   return true;
 }

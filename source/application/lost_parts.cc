@@ -24,12 +24,14 @@ namespace
   constexpr unsigned int n_intervals = 6;
 
   template <int dim>
-  LostPart<dim> lost_part(const Point<dim> &place, const unsigned int level, const bool is_whole)
+  LostPart<dim> lost_part(const Point<dim> &place, const BoxLattice<dim> &box, const Point<dim> &corner,
+                          const double size, const bool is_whole)
   {
     LostPart<dim> part{};
     for (unsigned int d = 0; d < dim; ++d)
       part.place[d] = place[d];
-    part.level = level;
+    part.level = box.level_for(size);
+    part.cell = box.position_of_corner(corner, part.level);
     part.is_whole = is_whole;
     return part;
   }
@@ -51,7 +53,7 @@ namespace
 
   /** What is lost within one cell with level set @p values; at most one place is named. */
   template <int dim>
-  void find_in_cell(const LevelSetCell<dim> &values, const unsigned int level,
+  void find_in_cell(const LevelSetCell<dim> &values, const BoxLattice<dim> &box,
                     const ZeroSetDistance<dim> &distance, std::vector<LostPart<dim>> &lost)
   {
     const double h = values.size;
@@ -70,14 +72,14 @@ namespace
         continue;
       if (distance.layer_thickness(x, thin * h) < thin * h)
       {
-        lost.push_back(lost_part(x, level, true));
+        lost.push_back(lost_part(x, box, values.corner, h, true));
         return;
       }
       is_blunt = true;
       blunt_place = x;
     }
     if (is_blunt)
-      lost.push_back(lost_part(blunt_place, level, false));
+      lost.push_back(lost_part(blunt_place, box, values.corner, h, false));
   }
 } // namespace
 
@@ -103,14 +105,14 @@ std::vector<LostPart<dim>> find_lost_parts(const LevelSet<dim> &level_set, const
     {
       cells_at_membrane.insert(cell->active_cell_index);
       if (!membrane || std::abs(membrane->project(root.point()).distance) > largest_distance * cell->size)
-        lost.push_back(lost_part(root.point(), box.level_for(cell->size), true));
+        lost.push_back(lost_part(root.point(), box, cell->corner, cell->size, true));
       else if (distance.curvature(root.point()) * cell->size > 1. / smallest_radius ||
                distance.thinnest_layer(root.point(), thin * cell->size) < thin * cell->size)
-        lost.push_back(lost_part(root.point(), box.level_for(cell->size), false));
+        lost.push_back(lost_part(root.point(), box, cell->corner, cell->size, false));
     }
   for (const auto &cell : dof_handler.active_cell_iterators())
     if (cell->is_locally_owned() && cells_at_membrane.count(cell->active_cell_index()) > 0)
-      find_in_cell(level_set.values_on(cell), cell->level(), distance, lost);
+      find_in_cell(level_set.values_on(cell), box, distance, lost);
   return gather_plain(lost, communicator);
 }
 

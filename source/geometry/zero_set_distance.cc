@@ -15,11 +15,15 @@ namespace
   // In spacings of the known points: where points are projected, and over which distance signs around a known
   // point tell its tangent and curvature.
   constexpr double near = 3.;
-  constexpr double radius_of_signs = 0.1;
+  constexpr double radius_of_signs = 0.02;
   // Up to the first slope of its parabola a frame is accurate, and up to the second the next one is made from
   // it; inside of the centres of curvature it is of use up to this determinant.
   constexpr double close_slope = 0.25, largest_slope = 0.5, smallest_determinant = 0.2;
   constexpr unsigned int most_projections = 4;
+  // So many known points are compared, with their parabolas up to this many spacings along the tangent.
+  constexpr unsigned int n_candidates = 16;
+  constexpr double reach_of_parabola = 1.5;
+  constexpr double much_nearer = 0.5;
   // Steps of the search across a layer, in parts of its reach.
   constexpr unsigned int n_steps_across_layer = 16;
 } // namespace
@@ -35,11 +39,34 @@ public:
   {
   }
 
-  unsigned int nearest(const Point<dim> &x) const
+  unsigned int nearest(const Point<dim> &x) const { return nearest(x, 1).front(); }
+
+  /** Some of the nearest points, in no order. */
+  std::vector<unsigned int> nearest(const Point<dim> &x, const unsigned int n) const
   {
     std::vector<Place> found;
-    tree.query(boost::geometry::index::nearest(x, 1), std::back_inserter(found));
-    return found.front().second;
+    tree.query(boost::geometry::index::nearest(x, n), std::back_inserter(found));
+    std::vector<unsigned int> result;
+    for (const Place &place : found)
+      result.push_back(place.second);
+    return result;
+  }
+
+  /** About the distance of @p x from the zero set beside a point, by its parabola if that reaches so far. */
+  double expected_distance(const unsigned int i, const Point<dim> &x) const
+  {
+    const Tensor<1, dim> way = x - points[i].point;
+    const double distance = way.norm();
+    if (!(distance < near * points[i].spacing) || !frame(i))
+      return distance;
+    Tensor<1, dim - 1> tangential;
+    for (unsigned int d = 0; d < dim - 1; ++d)
+      tangential[d] = way * frame(i)->tangents[d];
+    if (tangential.norm() > reach_of_parabola * points[i].spacing)
+      return distance;
+    return std::min(distance,
+                    std::abs(way * frame(i)->normal +
+                             0.5 * (tangential * (Tensor<2, dim - 1>(frame(i)->curvature) * tangential))));
   }
 
   /** Nothing where the zero set is no graph. */
@@ -164,11 +191,20 @@ double ZeroSetDistance<dim>::value(const Point<dim> &x, const unsigned int) cons
   const double value_at_x = function.value(x);
   if (value_at_x == 0.)
     return 0.;
-  const unsigned int nearest = known_points->nearest(x);
-  const KnownPoint &known = known_points->points[nearest];
-  double distance = x.distance(known.point);
-  if (distance < near * known.spacing)
-    if (const auto &frame = known_points->frame(nearest))
+  // The nearest point may be one of another sheet, if those of the nearest sheet are farther apart: another
+  // one is taken where it promises to be much nearer.
+  unsigned int best = known_points->nearest(x);
+  double distance = x.distance(known_points->points[best].point);
+  double largest = much_nearer * known_points->expected_distance(best, x);
+  for (const unsigned int i : known_points->nearest(x, n_candidates))
+    if (const double expected = known_points->expected_distance(i, x); expected < largest)
+    {
+      best = i;
+      largest = expected;
+    }
+  const KnownPoint &known = known_points->points[best];
+  if (x.distance(known.point) < near * known.spacing)
+    if (const auto &frame = known_points->frame(best))
       distance =
           std::min(distance, projected_distance(function, *frame, x, known.spacing).value_or(distance));
   return std::copysign(distance, value_at_x);

@@ -167,7 +167,7 @@ void MembraneSearch<dim>::visit(const Cubes &cubes, const unsigned int level, co
       const auto sign_changes = only_one ? samples.central_sign_change() : samples.sign_changes();
       if (is_last)
         for (const auto &pair : sign_changes)
-          add_root(samples, pair, only_one ? size : size / samples.n, result);
+          add_root(samples, pair, size, result);
       if (samples_decide && sign_changes.empty())
         continue;
     }
@@ -200,6 +200,7 @@ FoundMembrane<dim> MembraneSearch<dim>::search(Cubes cubes, const MPI_Comm commu
     if (samples_decide && n_left > largest_number_of_cells * GeometryInfo<dim>::max_children_per_cell)
     {
       result.level_with_too_many_cells = level;
+      result.n_cells_of_that_level = n_left / GeometryInfo<dim>::max_children_per_cell;
       break;
     }
     if (!samples_decide && n_left > (level < levels.membrane ? most_undecided_cubes : most_hiding_places))

@@ -166,8 +166,8 @@ void FieldWriter<dim>::write(const dealii::DataOutInterface<dim, dim> &data, con
 
 template <int dim>
 void FieldWriter<dim>::write_cells(const dealii::DataOutInterface<dim, dim> &data,
-                                   const dealii::DataOutBase::DataOutFilter &cells,
-                                   const std::string &path, const std::size_t n_bytes) const
+                                   const dealii::DataOutBase::DataOutFilter &cells, const std::string &path,
+                                   const std::size_t n_bytes) const
 {
   // A rank without cells knows neither the number nor the names of the fields, and in deal.II 9.4 takes part
   // in writing with numbers that are not set: only those with cells write.

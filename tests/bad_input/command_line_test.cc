@@ -260,7 +260,6 @@ INSTANTIATE_TEST_SUITE_P(, ParameterFileInAPipe, ::testing::Values(1u, 2u),
                          [](const auto &info)
                          { return std::to_string(info.param) + (info.param == 1 ? "Rank" : "Ranks"); });
 
-
 TEST_F(BadPermissions, DirectoryThatCannotBeSearchedOrRead)
 {
   using std::filesystem::perms;

@@ -1,5 +1,6 @@
 // Names of directories that the file system takes, and that nobody means.
 #include <gemmule/parameters/directory_name.h>
+#include <gemmule/parameters/text.h>
 
 #include <gtest/gtest.h>
 #include <utility>
@@ -11,7 +12,8 @@ namespace
 {
 void expect_complaint(const std::string &name, const std::string &complaint)
 {
-  EXPECT_EQ(flaw_of_directory_name(name), "is '" + name + "': " + complaint);
+  // Invisible characters are shown by their codes.
+  EXPECT_EQ(flaw_of_directory_name(name), "is " + Gemmule::Parameters::in_quotes(name) + ": " + complaint);
 }
 
 TEST(DirectoryName, ThatAShellWouldReplaceIsRefused)

@@ -15,8 +15,9 @@ template <int dim>
 struct LostPart
 {
   std::array<double, dim> place;
-  unsigned int level; ///< of the cell there
-  bool is_whole;      ///< a vesicle, a filament or a gap has vanished; otherwise the shape is only inaccurate
+  LatticeKey<dim> cell; ///< its position in the lattice of its level
+  unsigned int level;
+  bool is_whole; ///< a vesicle, a filament or a gap has vanished; otherwise the shape is only inaccurate
 
   dealii::Point<dim> point() const
   {

@@ -22,7 +22,7 @@ template <int dim>
 class ZeroSetDistance : public dealii::Function<dim>
 {
 public:
-  /** A point of the zero set, and the distance over which such points are apart there. */
+  /** A point of the zero set, and the largest distance over which such points are apart there. */
   struct KnownPoint
   {
     dealii::Point<dim> point;

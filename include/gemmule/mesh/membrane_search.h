@@ -18,7 +18,7 @@ template <int dim>
 struct MembraneRoot
 {
   std::array<double, dim> coordinates;
-  double spacing; ///< about the distance of the next ones
+  double spacing; ///< the next ones are not farther away than about this
   /** Value beside the point, on the side where it is smaller, and the largest one known of the cell: a
    * continuous function nearly vanishes there, a jump or a pole does not. */
   double remainder, largest_value;
@@ -45,6 +45,7 @@ struct FoundMembrane
   /** The search has ended at this level, because the function changes its sign in too many cells of it; 0: it
    * has not. */
   unsigned int level_with_too_many_cells = 0;
+  std::size_t n_cells_of_that_level = 0;
 };
 
 /**

@@ -26,8 +26,8 @@ public:
 };
 
 /**
- * A time step that cannot be computed with the size that it has: the solution breaks down, and no parameter or
- * place of the membrane is to blame. A shorter step, or a finer mesh, may do.
+ * A time step that cannot be computed with the size that it has: the solution breaks down, and no parameter
+ * or place of the membrane is to blame. A shorter step, or a finer mesh, may do.
  */
 class StepBreakdown : public SimulationError
 {
