@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: LGPL-2.1-or-later
 # Install, build, run a case, draw its pictures:
 #   ./run.sh [CASE.prm] [options of gemmule, such as --set "End time=1" or --output DIR]
 # Without a case: parameters/examples/quick.prm. With NP=n in the environment: on n MPI ranks.

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: LGPL-2.1-or-later
 # Install, build, run all tests; the last line says how many passed and failed.
 #   ./test.sh [options of ctest, such as -L unit]
 set -euo pipefail

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """Run as `python3 -m postprocess DIRECTORY` or `python3 postprocess DIRECTORY`."""
 
 import sys

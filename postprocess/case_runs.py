@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """Running a case with different parameters, each run in a directory of its own, and keeping what has been run."""
 
 import os

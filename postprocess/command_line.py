@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """Command line: which results, where to, which times."""
 
 import argparse

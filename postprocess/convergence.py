@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """How the results of a case converge with one of its parameters: runs it, compares, writes a table and a picture.
 
 python3 -m postprocess.convergence CASE.prm --executable build/release/gemmule --parameter "Mesh/Membrane level"

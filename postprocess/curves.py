@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """Closed curves through the points of a membrane: smooth interpolation, distances, values along the curve."""
 
 import numpy as np

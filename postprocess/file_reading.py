@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """Reading files that another program may be writing, or has left half-written; what is wrong comes as ResultsError."""
 
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """mesh.png: the cells of the last output, or those around the membrane at several times, with the membrane."""
 
 import numpy as np

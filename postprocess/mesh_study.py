@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """How a case depends on its mesh: adaptive and uniform meshes on the same axes, against unknowns and CPU time.
 
 python3 -m postprocess.mesh_study CASE.prm --executable build/release/gemmule --time 1 --values 4,5,6,7

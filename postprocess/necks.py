@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """Necks of closed curves: where two sheets are nearest to each other, and what a neck cuts off."""
 
 from dataclasses import dataclass

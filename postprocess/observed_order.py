@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """Orders of convergence from runs alone, without an exact solution."""
 
 import numpy as np

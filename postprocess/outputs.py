@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """The membrane and the fields in the box at one time, as the program writes them; what is not so is a ValueError."""
 
 from dataclasses import dataclass

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """Write doc/parameters.md from what the program itself says about its parameters.
 
     python3 postprocess/parameter_reference.py build/release/gemmule --output doc/parameters.md

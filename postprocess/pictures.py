@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """All pictures of a run: what can be drawn is drawn, and what cannot is told."""
 
 from pathlib import Path

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """Reading the files of a run, also of one that is at work. Nothing here draws."""
 
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """Which outputs a picture shows."""
 
 import numpy as np

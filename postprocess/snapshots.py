@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """snapshots.png: the membrane at several times, coloured by its composition, over streamlines."""
 
 import numpy as np

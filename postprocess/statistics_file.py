@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """Reading statistics.csv, to which a run may be adding a row, and which may have ended in the middle of one."""
 
 import csv

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """What studies of several runs have in common: arguments, the runs themselves, table, text and picture of the result."""
 
 import sys

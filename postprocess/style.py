@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """What all figures share: matplotlib's defaults, our fonts and colours, how they are made and saved."""
 
 import io

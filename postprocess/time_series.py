@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """timeseries.png: how the numbers of statistics.csv develop."""
 
 import numpy as np

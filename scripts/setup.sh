@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 # shellcheck shell=bash
 # Shared by run.sh and test.sh, which source it: install what is missing, build, find a Python.
 

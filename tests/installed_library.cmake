@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 # Installs the build, then builds doc/examples/smooth_step against the installed library as a project of its own, and runs
 # it. Needs -D: build_directory, source_directory, work_directory, build_type.
 file(REMOVE_RECURSE ${work_directory})

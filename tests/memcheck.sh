@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: LGPL-2.1-or-later
 # valgrind's memcheck on a few time steps of a small case:
 #   tests/memcheck.sh [EXECUTABLE] [options of gemmule]
 # The executable must not use instructions that valgrind does not know (AVX-512): take a debug build, which is not

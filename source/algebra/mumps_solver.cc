@@ -1,6 +1,7 @@
-#include <gemmule/algebra/arrival.h>
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #include <gemmule/algebra/mumps_solver.h>
-#include <gemmule/parameters/errors.h>
+#include <gemmule/base/arrival.h>
+#include <gemmule/base/exceptions.h>
 
 #include <deal.II/base/exceptions.h>
 #include <deal.II/base/mpi.h>

@@ -1,7 +1,8 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #include <gemmule/application/checkpoints.h>
+#include <gemmule/base/exceptions.h>
+#include <gemmule/base/rank_zero.h>
 #include <gemmule/output/named_arrays.h>
-#include <gemmule/output/rank_zero.h>
-#include <gemmule/parameters/errors.h>
 #include <gemmule/parameters/section.h>
 
 #include <deal.II/base/mpi.h>

@@ -1,7 +1,8 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #include <gemmule/application/command_line.h>
+#include <gemmule/base/exceptions.h>
 #include <gemmule/output/provenance.h>
 #include <gemmule/parameters/characters.h>
-#include <gemmule/parameters/errors.h>
 #include <gemmule/parameters/expression_names.h>
 #include <gemmule/parameters/source_line.h>
 #include <gemmule/parameters/suggestion.h>

@@ -1,12 +1,13 @@
-#include <gemmule/algebra/arrival.h>
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #include <gemmule/application/command_line.h>
 #include <gemmule/application/termination_signals.h>
 #include <gemmule/application/vesicle_problem.h>
+#include <gemmule/base/arrival.h>
+#include <gemmule/base/exceptions.h>
+#include <gemmule/base/rank_zero.h>
 #include <gemmule/output/disk_error.h>
 #include <gemmule/output/output_directory.h>
-#include <gemmule/output/rank_zero.h>
 #include <gemmule/parameters/all_parameters.h>
-#include <gemmule/parameters/errors.h>
 #include <gemmule/parameters/parameter_file.h>
 #include <gemmule/parameters/text.h>
 

@@ -1,5 +1,6 @@
-#include <gemmule/algebra/gather.h>
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #include <gemmule/application/reporting.h>
+#include <gemmule/base/gather.h>
 #include <gemmule/geometry/curve_order.h>
 #include <gemmule/geometry/level_set_curvature.h>
 #include <gemmule/geometry/region_moments.h>

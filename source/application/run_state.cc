@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #include <gemmule/application/run_state.h>
 #include <gemmule/output/named_arrays.h>
 

@@ -1,11 +1,12 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #include <gemmule/application/checkpoints.h>
-#include <gemmule/application/coupled_system.h>
 #include <gemmule/application/reporting.h>
 #include <gemmule/application/vesicle_problem.h>
+#include <gemmule/base/exceptions.h>
+#include <gemmule/base/rank_zero.h>
+#include <gemmule/coupling/coupled_system.h>
 #include <gemmule/output/disk_error.h>
 #include <gemmule/output/output_directory.h>
-#include <gemmule/output/rank_zero.h>
-#include <gemmule/parameters/errors.h>
 #include <gemmule/time/step_control.h>
 
 #include <algorithm>

@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // What VesicleProblem writes of the steps it has made.
 #include <gemmule/application/checkpoints.h>
-#include <gemmule/application/coupled_system.h>
 #include <gemmule/application/reporting.h>
 #include <gemmule/application/vesicle_problem.h>
+#include <gemmule/coupling/coupled_system.h>
 #include <gemmule/output/disk_error.h>
 #include <gemmule/output/run_log.h>
 #include <gemmule/time/step_control.h>

@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // Saving what VesicleProblem carries from step to step, and going on from it.
 #include <gemmule/application/checkpoints.h>
-#include <gemmule/application/coupled_system.h>
 #include <gemmule/application/vesicle_problem.h>
+#include <gemmule/base/exceptions.h>
+#include <gemmule/coupling/coupled_system.h>
 #include <gemmule/output/field_output.h>
-#include <gemmule/parameters/errors.h>
 #include <gemmule/time/step_control.h>
 
 namespace Gemmule

@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // The steps of VesicleProblem, with all that can go wrong in them.
-#include <gemmule/application/coupled_system.h>
 #include <gemmule/application/vesicle_problem.h>
+#include <gemmule/base/exceptions.h>
+#include <gemmule/coupling/coupled_system.h>
 #include <gemmule/output/run_log.h>
-#include <gemmule/parameters/errors.h>
 #include <gemmule/parameters/text.h>
 #include <gemmule/time/step_control.h>
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 # Finds the MPI build of MUMPS (double precision) and defines the target MUMPS::dmumps.
 find_path(MUMPS_INCLUDE_DIR dmumps_c.h PATH_SUFFIXES mumps MUMPS)
 find_library(MUMPS_LIBRARY dmumps)

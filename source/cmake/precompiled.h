@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // deal.II's headers dominate the compile time: the ones that most files need, compiled once.
 #pragma once
 #include <deal.II/base/function.h>

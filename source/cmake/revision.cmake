@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 # Run at every build: writes version.h from version.h.in when the version or the revision has changed. At
 # configuration it would go out of date with the next commit.
 #   cmake -Dsource_directory=... -Dtemplate=... -Doutput=... -DPROJECT_VERSION=... -P revision.cmake

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #include <gemmule/flow/bending_force.h>
 #include <gemmule/surface/trace_forms.h>
 

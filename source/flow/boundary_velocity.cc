@@ -1,7 +1,8 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <gemmule/base/exceptions.h>
+#include <gemmule/base/raise_together.h>
 #include <gemmule/flow/boundary_velocity.h>
-#include <gemmule/parameters/errors.h>
 #include <gemmule/parameters/expression.h>
-#include <gemmule/parameters/raise_together.h>
 #include <gemmule/parameters/text.h>
 
 #include <deal.II/base/quadrature_lib.h>
@@ -110,7 +111,7 @@ void BoundaryVelocity<dim>::constrain(const Function<dim> &velocity, AffineConst
       sums[1] += std::abs(b.flux_weight * values[i]);
     }
   }
-  Parameters::raise_together(parameter, complaint, communicator);
+  raise_together(parameter, complaint, communicator);
   // All ranks see the same sums from here on, and throw together.
   const double total = Utilities::MPI::sum(sums[1], communicator);
   flux = Utilities::MPI::sum(sums[0], communicator);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #include <gemmule/flow/cut_cell_matrix.h>
 
 namespace Gemmule

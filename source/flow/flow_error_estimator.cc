@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #include <gemmule/flow/flow_error_estimator.h>
 
 #include <deal.II/base/mpi.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #include <gemmule/flow/membrane_force.h>
 
 namespace Gemmule
@@ -27,7 +28,7 @@ void MembraneForce<dim>::reinit(const CutGeometry<dim> &new_geometry)
 }
 
 template <int dim>
-void MembraneForce<dim>::add_rhs(const MembraneScalar *tension, const double offset,
+void MembraneForce<dim>::add_rhs(const MembranePointValues *tension, const double offset,
                                  const double capillary_number, const FluidPair &fluids,
                                  const std::vector<StokesCellElement> &cut_cell_elements,
                                  const ElementSystem &system, std::vector<double> &rhs) const
@@ -75,7 +76,7 @@ MembraneForce<dim>::average(const FluidPair &fluids, const std::vector<StokesCel
 }
 
 template <int dim>
-double MembraneForce<dim>::integrate_divergence(const MembraneScalar *tension, const double offset,
+double MembraneForce<dim>::integrate_divergence(const MembranePointValues *tension, const double offset,
                                                 const Velocity &velocity) const
 {
   const auto &cells = geometry->cut_cells();

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #include <gemmule/flow/semi_implicit_bending.h>
 #include <gemmule/surface/trace_forms.h>
 
@@ -13,9 +14,9 @@ void SemiImplicitBending<dim>::add_elements(const unsigned int first_unknown,
                                             ElementSystem &system)
 {
   elements.assign(cut_cell_elements.size(), 0);
-  for (unsigned int b = 0; b < space->band().size(); ++b)
+  for (unsigned int b = 0; b < space->active_mesh().size(); ++b)
   {
-    const unsigned int k = space->band()[b].cut_index;
+    const unsigned int k = space->active_mesh()[b].cut_index;
     CondensedIndices element = system.element(cut_cell_elements[k].element);
     const CondensedIndices &trace = space->elements()[b];
     const unsigned int n_flow_indices = element.indices.size(), n_flow_entries = element.entries.size();
@@ -42,15 +43,15 @@ void SemiImplicitBending<dim>::add_matrix(const CutGeometry<dim> &geometry, cons
   const double scale = std::sqrt(coefficient / capillary_number);
   FullMatrix<double> local(first + nt, first + nt);
   SurfacePoint<dim> point;
-  for (const BandCell<dim> &band_cell : space->band())
+  for (const TraceCell<dim> &trace_cell : space->active_mesh())
   {
-    const unsigned int k = band_cell.cut_index;
+    const unsigned int k = trace_cell.cut_index;
     const CutCell<dim> &cell = geometry.cut_cells()[k];
     std::array<std::array<Tensor<1, dim>, nt>, nv> coupling{};
     local = 0.;
     for (unsigned int i = 0; i < nt; ++i)
       for (unsigned int j = 0; j < nt; ++j)
-        local(first + i, first + j) = -cell.size * band_cell.normal_derivatives(i, j);
+        local(first + i, first + j) = -cell.size * trace_cell.normal_derivatives(i, j);
     for (unsigned int q = 0; q < cell.surface_points.size(); ++q)
     {
       point.reinit(cell, q);
@@ -95,13 +96,13 @@ void SemiImplicitBending<dim>::add_rhs(const CutGeometry<dim> &geometry, const d
   typename TensorLagrange<dim, 3>::Values values;
   typename TensorLagrange<dim, 3>::Gradients gradients;
   SurfacePoint<dim> point;
-  for (unsigned int b = 0; b < space->band().size(); ++b)
+  for (unsigned int b = 0; b < space->active_mesh().size(); ++b)
   {
-    const BandCell<dim> &band_cell = space->band()[b];
-    const unsigned int k = band_cell.cut_index;
+    const TraceCell<dim> &trace_cell = space->active_mesh()[b];
+    const unsigned int k = trace_cell.cut_index;
     const CutCell<dim> &cell = geometry.cut_cells()[k];
     local.fill(0.);
-    stabilised_mass_matrix(band_cell, matrix);
+    stabilised_mass_matrix(trace_cell, matrix);
     stiffness = 0.;
     for (unsigned int q = 0; q < cell.surface_points.size(); ++q)
     {

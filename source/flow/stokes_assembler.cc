@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #include <gemmule/flow/stokes_assembler.h>
 #include <gemmule/parameters/discretisation.h>
 #include <gemmule/parameters/fluid.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #include <gemmule/flow/stokes_solver.h>
 #include <gemmule/parameters/fluid.h>
 
@@ -51,7 +52,7 @@ void StokesSolver<dim>::prepare(const CutGeometry<dim> &new_geometry, const Func
 }
 
 template <int dim>
-void StokesSolver<dim>::solve(const MembraneScalar &tension, const ArclengthPenalty *penalty,
+void StokesSolver<dim>::solve(const MembranePointValues &tension, const ArclengthPenalty *penalty,
                               const BendingForce<dim> *bending)
 {
   Assert(geometry != nullptr, ExcMessage("prepare() must be called before solve()."));

@@ -1,8 +1,9 @@
-#include <gemmule/geometry/band_level_set.h>
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #include <gemmule/geometry/cell_level_set.h>
 #include <gemmule/geometry/cloud_refinement.h>
 #include <gemmule/geometry/cut_geometry.h>
 #include <gemmule/geometry/cut_quadrature.h>
+#include <gemmule/geometry/narrow_band_level_set.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/quadrature_lib.h>

@@ -1,7 +1,8 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <gemmule/base/exceptions.h>
 #include <gemmule/geometry/cell_level_set.h>
 #include <gemmule/geometry/cut_geometry.h>
 #include <gemmule/geometry/cut_quadrature.h>
-#include <gemmule/parameters/errors.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/quadrature_lib.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #include <gemmule/geometry/cut_quadrature.h>
 
 #include <deal.II/base/exceptions.h>

@@ -1,4 +1,5 @@
-#include <gemmule/algebra/gather.h>
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <gemmule/base/gather.h>
 #include <gemmule/geometry/level_set.h>
 
 #include <deal.II/base/mpi.h>
@@ -17,7 +18,7 @@ namespace
 {
   // Cells within this many of their own sizes of the membrane get exact distances: those that the membrane
   // cuts now or can reach within a step, and their neighbours.
-  constexpr double band_in_cells = 2.5;
+  constexpr double half_width_in_cells = 2.5;
 
   // A cell whose centre is farther away than this will not be cut after a step.
   constexpr double reach_in_cells = 1.6;
@@ -25,8 +26,8 @@ namespace
   // Halved with each level: 5e-11 of the finest cells.
   constexpr double tiny_part_of_coarse_cell = 5e-11;
 
-  /** Is the cell beside a larger one that the membrane may cut after the step? It belongs to the band then,
-   * however far that is in terms of its own size. */
+  /** Is the cell beside a larger one that the membrane may cut after the step? It belongs to the narrow band
+   * then, however far that is in terms of its own size. */
   template <int dim, typename CellIterator>
   bool is_beside_larger_cut_cell(const CellIterator &cell, const MembraneProjection<dim> &membrane)
   {
@@ -90,14 +91,14 @@ void LevelSet<dim>::interpolate(const Function<dim> &function)
 template <int dim>
 void LevelSet<dim>::set_nodes(const MembraneProjection<dim> &membrane,
                               const std::function<double(const Point<dim> &)> &accurate,
-                              const BandLevelSet<dim> *const sides, const double least_width)
+                              const NarrowBandLevelSet<dim> *const sides, const double least_width)
 {
   const IndexSet &owned = dof_handler.locally_owned_dofs();
   // Node by node: 2 exact, 1 approximate, 0 not yet. A node takes the better of what its cells ask for.
   std::vector<unsigned char> state(owned.n_elements(), 0);
   std::vector<types::global_dof_index> dofs(fe.n_dofs_per_cell());
   phi.zero_out_ghost_values();
-  is_in_band.assign(triangulation.n_active_cells(), false);
+  is_in_narrow_band.assign(triangulation.n_active_cells(), false);
   for (const auto &cell : dof_handler.active_cell_iterators())
   {
     if (!cell->is_locally_owned() && !cell->is_ghost())
@@ -106,15 +107,16 @@ void LevelSet<dim>::set_nodes(const MembraneProjection<dim> &membrane,
     const Point<dim> center = cell->center();
     const auto &nearest = membrane.nearest(center);
     const double distance = center.distance(nearest.point);
-    const bool in_band =
-        distance < std::max(band_in_cells * h, least_width) ||
-        (distance < 2. * band_in_cells * h && is_beside_larger_cut_cell<dim>(cell, membrane));
-    is_in_band[cell->active_cell_index()] = in_band;
-    if (!in_band && far_nodes_are_set)
+    const bool in_narrow_band =
+        distance < std::max(half_width_in_cells * h, least_width) ||
+        (distance < 2. * half_width_in_cells * h && is_beside_larger_cut_cell<dim>(cell, membrane));
+    is_in_narrow_band[cell->active_cell_index()] = in_narrow_band;
+    if (!in_narrow_band && far_nodes_are_set)
       continue;
-    // Beyond the band all of a cell is on one side, and its distance from one point of the membrane will do.
+    // Beyond the narrow band all of a cell is on one side, and its distance from one point of the membrane
+    // will do.
     double side = 0.;
-    if (!in_band)
+    if (!in_narrow_band)
     {
       const double signed_distance = membrane.approximate_distance(center);
       side = sides == nullptr ? signed_distance : sides->with_side(signed_distance, center);
@@ -126,11 +128,11 @@ void LevelSet<dim>::set_nodes(const MembraneProjection<dim> &membrane,
       if (!owned.is_element(dof))
         continue;
       unsigned char &done = state[owned.index_within_set(dof)];
-      if (done == 2 || (done == 1 && !in_band))
+      if (done == 2 || (done == 1 && !in_narrow_band))
         continue;
       const Point<dim> x = cell->vertex(0) + h * Tensor<1, dim>(TensorLagrange<dim, 3>::node(i));
-      phi(dof) = in_band ? accurate(x) : std::copysign(x.distance(nearest.point), side);
-      done = in_band ? 2 : 1;
+      phi(dof) = in_narrow_band ? accurate(x) : std::copysign(x.distance(nearest.point), side);
+      done = in_narrow_band ? 2 : 1;
     }
   }
   far_nodes_are_set = true;
@@ -152,8 +154,8 @@ void LevelSet<dim>::set_distance(const MembraneProjection<dim> &membrane,
 }
 
 template <int dim>
-void LevelSet<dim>::set_distance(const MembraneProjection<dim> &membrane, const BandLevelSet<dim> &sides,
-                                 const double width)
+void LevelSet<dim>::set_distance(const MembraneProjection<dim> &membrane,
+                                 const NarrowBandLevelSet<dim> &sides, const double width)
 {
   forget_far_nodes();
   set_nodes(
@@ -162,7 +164,7 @@ void LevelSet<dim>::set_distance(const MembraneProjection<dim> &membrane, const 
 }
 
 template <int dim>
-void LevelSet<dim>::advance(const MembraneMotion<dim> &motion, const BandLevelSet<dim> &old_level_set,
+void LevelSet<dim>::advance(const MembraneMotion<dim> &motion, const NarrowBandLevelSet<dim> &old_level_set,
                             const bool redistance)
 {
   set_nodes(
@@ -174,10 +176,10 @@ void LevelSet<dim>::advance(const MembraneMotion<dim> &motion, const BandLevelSe
         if (!redistance)
           if (const auto value = old_level_set.value(old_x))
             return *value;
-        return old_level_set.with_side(trajectory.foot.distance, old_x);
+        return old_level_set.with_side(trajectory.departure_point.distance, old_x);
       },
       &old_level_set);
-  filter.sweep(phi, is_in_band);
+  filter.sweep(phi, is_in_narrow_band);
   finish();
 }
 
@@ -195,11 +197,12 @@ LevelSetCell<dim> LevelSet<dim>::values_on(const typename DoFHandler<dim>::activ
 }
 
 template <int dim>
-std::vector<LevelSetCell<dim>> LevelSet<dim>::gather_band() const
+std::vector<LevelSetCell<dim>> LevelSet<dim>::gather_narrow_band() const
 {
   std::vector<LevelSetCell<dim>> local;
   for (const auto &cell : dof_handler.active_cell_iterators())
-    if (!is_in_band.empty() && cell->is_locally_owned() && is_in_band[cell->active_cell_index()])
+    if (!is_in_narrow_band.empty() && cell->is_locally_owned() &&
+        is_in_narrow_band[cell->active_cell_index()])
       local.push_back(values_on(cell));
   return gather_plain(local, triangulation.get_communicator());
 }
@@ -249,8 +252,9 @@ template <int dim>
 bool LevelSet<dim>::is_accurate_around(const CutGeometry<dim> &geometry) const
 {
   const auto &cut_cells = geometry.cut_cells();
-  const bool is_accurate = std::all_of(cut_cells.begin(), cut_cells.end(),
-                                       [&](const auto &cell) { return is_in_band[cell.active_cell_index]; });
+  const bool is_accurate =
+      std::all_of(cut_cells.begin(), cut_cells.end(),
+                  [&](const auto &cell) { return is_in_narrow_band[cell.active_cell_index]; });
   return Utilities::MPI::min(static_cast<unsigned int>(is_accurate), triangulation.get_communicator()) > 0;
 }
 
@@ -260,10 +264,10 @@ void LevelSet<dim>::shift(const double amount)
   // Not the other nodes: they are not set anew in each step, so that shifts would add up there, also those of
   // rejected steps, until a sign changes.
   const IndexSet &owned = dof_handler.locally_owned_dofs();
-  std::vector<bool> shifted(owned.n_elements(), is_in_band.empty());
+  std::vector<bool> shifted(owned.n_elements(), is_in_narrow_band.empty());
   std::vector<types::global_dof_index> dofs(fe.n_dofs_per_cell());
   for (const auto &cell : dof_handler.active_cell_iterators())
-    if (!is_in_band.empty() && !cell->is_artificial() && is_in_band[cell->active_cell_index()])
+    if (!is_in_narrow_band.empty() && !cell->is_artificial() && is_in_narrow_band[cell->active_cell_index()])
     {
       cell->get_dof_indices(dofs);
       for (const auto dof : dofs)

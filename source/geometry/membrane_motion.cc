@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #include <gemmule/geometry/level_set_curvature.h>
 #include <gemmule/geometry/membrane_motion.h>
 
@@ -35,21 +36,22 @@ typename MembraneMotion<dim>::Trajectory MembraneMotion<dim>::trace_back(const P
 {
   using Fields = MembraneFields<dim>;
   Trajectory result;
-  result.foot = projection.project(x);
-  const double tolerance = 1e-12 * projection.get_patches()[result.foot.patch].size;
+  result.departure_point = projection.project(x);
+  const double tolerance = 1e-12 * projection.get_patches()[result.departure_point.patch].size;
   for (unsigned int iteration = 0; iteration < 10; ++iteration)
   {
-    const Tensor<1, dim> d = displacement(result.foot);
+    const Tensor<1, dim> d = displacement(result.departure_point);
     const double change = (d - result.displacement).norm();
     result.displacement = d;
     if (change < tolerance)
       break;
-    result.foot = projection.project(x - d, result.foot);
+    result.departure_point = projection.project(x - d, result.departure_point);
   }
-  result.velocity = velocity_weight * projection.value(result.foot, &Fields::velocity) +
-                    previous_velocity_weight * projection.value(result.foot, &Fields::previous_velocity);
+  result.velocity =
+      velocity_weight * projection.value(result.departure_point, &Fields::velocity) +
+      previous_velocity_weight * projection.value(result.departure_point, &Fields::previous_velocity);
   if (added_tension != 0.)
-    result.velocity += added_tension * projection.value(result.foot, &Fields::tension_velocity);
+    result.velocity += added_tension * projection.value(result.departure_point, &Fields::tension_velocity);
   return result;
 }
 

@@ -1,6 +1,7 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <gemmule/base/exceptions.h>
 #include <gemmule/geometry/level_set_curvature.h>
 #include <gemmule/geometry/membrane_projection.h>
-#include <gemmule/parameters/errors.h>
 
 #include <algorithm>
 #include <cmath>

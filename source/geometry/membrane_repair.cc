@@ -1,6 +1,7 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <gemmule/base/exceptions.h>
 #include <gemmule/geometry/membrane_repair.h>
 #include <gemmule/geometry/membrane_transport.h>
-#include <gemmule/parameters/errors.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -58,7 +59,8 @@ double remove_small_features(const MembraneSnapshot<dim> &membrane, const double
 {
   const double width = 4. * radius; // the membrane moves by twice the radius at most
   level_set.set_distance(MembraneProjection<dim>(membrane.patches, membrane.origin),
-                         BandLevelSet<dim>(membrane.band, membrane.origin, &membrane.cloud), width);
+                         NarrowBandLevelSet<dim>(membrane.narrow_band, membrane.origin, &membrane.cloud),
+                         width);
   geometry.reinit(level_set.get_dof_handler(), level_set.values());
   const double measure = geometry.measure();
   for (const double distance : {radius, -2. * radius, radius})
@@ -67,9 +69,9 @@ double remove_small_features(const MembraneSnapshot<dim> &membrane, const double
     geometry.reinit(level_set.get_dof_handler(), level_set.values());
     const auto patches = gather_bare_patches(geometry, communicator);
     const auto cloud = gather_cloud(bare_cloud(geometry), communicator);
-    const auto band = level_set.gather_band();
+    const auto band = level_set.gather_narrow_band();
     level_set.set_distance(MembraneProjection<dim>(patches, membrane.origin),
-                           BandLevelSet<dim>(band, membrane.origin, &cloud), width);
+                           NarrowBandLevelSet<dim>(band, membrane.origin, &cloud), width);
   }
   geometry.reinit(level_set.get_dof_handler(), level_set.values());
   return measure;

@@ -1,4 +1,5 @@
-#include <gemmule/algebra/gather.h>
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <gemmule/base/gather.h>
 #include <gemmule/geometry/membrane_transport.h>
 
 #include <algorithm>
@@ -41,11 +42,13 @@ std::vector<TransportedFields<dim>> transport_fields(const MembraneMotion<dim> &
       auto &t = transported[c];
       t.advecting_velocity[i] = trajectory.velocity;
       t.displacement[i] = trajectory.displacement;
-      t.previous_velocity[i] = old_membrane.value(trajectory.foot, &Fields::velocity);
-      t.concentration[i] = old_membrane.value(trajectory.foot, &Fields::concentration);
-      t.previous_concentration[i] = old_membrane.value(trajectory.foot, &Fields::previous_concentration);
-      t.preceding_concentration[i] = old_membrane.value(trajectory.foot, &Fields::preceding_concentration);
-      t.total_concentration[i] = old_membrane.value(trajectory.foot, &Fields::total_concentration);
+      t.previous_velocity[i] = old_membrane.value(trajectory.departure_point, &Fields::velocity);
+      t.concentration[i] = old_membrane.value(trajectory.departure_point, &Fields::concentration);
+      t.previous_concentration[i] =
+          old_membrane.value(trajectory.departure_point, &Fields::previous_concentration);
+      t.preceding_concentration[i] =
+          old_membrane.value(trajectory.departure_point, &Fields::preceding_concentration);
+      t.total_concentration[i] = old_membrane.value(trajectory.departure_point, &Fields::total_concentration);
     }
   return transported;
 }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #include <gemmule/geometry/sign_changes.h>
 
 #include <boost/math/tools/toms748_solve.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #include <gemmule/geometry/sign_changes.h>
 #include <gemmule/geometry/zero_set_distance.h>
 

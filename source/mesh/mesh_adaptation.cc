@@ -1,4 +1,5 @@
-#include <gemmule/algebra/gather.h>
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <gemmule/base/gather.h>
 #include <gemmule/mesh/mesh_adaptation.h>
 
 #include <deal.II/base/mpi.h>

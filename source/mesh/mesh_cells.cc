@@ -1,6 +1,7 @@
-#include <gemmule/algebra/gather.h>
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <gemmule/base/exceptions.h>
+#include <gemmule/base/gather.h>
 #include <gemmule/mesh/mesh_cells.h>
-#include <gemmule/parameters/errors.h>
 
 #include <cmath>
 #include <set>

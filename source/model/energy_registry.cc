@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <gemmule/base/exceptions.h>
 #include <gemmule/model/energy_density.h>
 #include <gemmule/model/energy_registry.h>
 #include <gemmule/model/exponential_surface_energy.h>
 #include <gemmule/model/quartic_double_well.h>
-#include <gemmule/parameters/errors.h>
 #include <gemmule/parameters/membrane.h>
 #include <gemmule/parameters/text.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #include <gemmule/model/exponential_surface_energy.h>
 
 #include <cmath>

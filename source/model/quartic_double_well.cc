@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #include <gemmule/model/quartic_double_well.h>
 
 namespace Gemmule

@@ -1,5 +1,6 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <gemmule/base/exceptions.h>
 #include <gemmule/output/directory_lock.h>
-#include <gemmule/parameters/errors.h>
 
 #include <array>
 #include <cerrno>

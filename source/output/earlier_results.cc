@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <gemmule/base/exceptions.h>
 #include <gemmule/output/checkpoint_directory.h>
 #include <gemmule/output/disk.h>
 #include <gemmule/output/earlier_results.h>
 #include <gemmule/output/hdf5_file.h>
-#include <gemmule/parameters/errors.h>
 
 #include <algorithm>
 #include <cmath>

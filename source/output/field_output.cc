@@ -1,10 +1,11 @@
-#include <gemmule/algebra/arrival.h>
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <gemmule/base/arrival.h>
+#include <gemmule/base/exceptions.h>
+#include <gemmule/base/rank_zero.h>
 #include <gemmule/output/disk.h>
 #include <gemmule/output/field_output.h>
 #include <gemmule/output/hdf5_file.h>
-#include <gemmule/output/rank_zero.h>
 #include <gemmule/output/xdmf.h>
-#include <gemmule/parameters/errors.h>
 
 #include <deal.II/base/geometry_info.h>
 #include <deal.II/base/mpi.h>

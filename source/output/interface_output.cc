@@ -1,7 +1,8 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <gemmule/base/rank_zero.h>
 #include <gemmule/output/disk.h>
 #include <gemmule/output/hdf5_file.h>
 #include <gemmule/output/interface_output.h>
-#include <gemmule/output/rank_zero.h>
 #include <gemmule/output/xdmf.h>
 
 #include <deal.II/base/exceptions.h>

@@ -1,7 +1,8 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <gemmule/base/exceptions.h>
 #include <gemmule/output/hdf5_file.h>
 #include <gemmule/output/named_arrays.h>
 #include <gemmule/output/provenance.h>
-#include <gemmule/parameters/errors.h>
 
 #include <deal.II/base/mpi.h>
 

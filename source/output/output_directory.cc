@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <gemmule/base/exceptions.h>
+#include <gemmule/base/rank_zero.h>
 #include <gemmule/output/disk.h>
 #include <gemmule/output/earlier_results.h>
 #include <gemmule/output/output_directory.h>
 #include <gemmule/output/output_place.h>
-#include <gemmule/output/rank_zero.h>
-#include <gemmule/parameters/errors.h>
 #include <gemmule/parameters/text.h>
 
 #include <algorithm>

@@ -1,6 +1,7 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <gemmule/base/exceptions.h>
 #include <gemmule/output/disk.h>
 #include <gemmule/output/output_place.h>
-#include <gemmule/parameters/errors.h>
 #include <gemmule/parameters/text.h>
 
 #include <cerrno>

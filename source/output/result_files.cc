@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #include <gemmule/output/disk.h>
 #include <gemmule/output/hdf5_file.h>
 #include <gemmule/output/result_files.h>

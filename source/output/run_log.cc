@@ -1,5 +1,6 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <gemmule/base/rank_zero.h>
 #include <gemmule/output/disk.h>
-#include <gemmule/output/rank_zero.h>
 #include <gemmule/output/run_log.h>
 #include <gemmule/parameters/text.h>
 

@@ -1,7 +1,8 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <gemmule/base/exceptions.h>
+#include <gemmule/base/rank_zero.h>
 #include <gemmule/output/disk.h>
-#include <gemmule/output/rank_zero.h>
 #include <gemmule/output/statistics.h>
-#include <gemmule/parameters/errors.h>
 
 #include <deal.II/base/exceptions.h>
 

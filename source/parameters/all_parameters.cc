@@ -1,6 +1,7 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <gemmule/base/exceptions.h>
 #include <gemmule/parameters/all_parameters.h>
 #include <gemmule/parameters/directory_name.h>
-#include <gemmule/parameters/errors.h>
 #include <gemmule/parameters/expression.h>
 #include <gemmule/parameters/parameter_file.h>
 #include <gemmule/parameters/section.h>

@@ -1,5 +1,6 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <gemmule/base/exceptions.h>
 #include <gemmule/parameters/domain.h>
-#include <gemmule/parameters/errors.h>
 #include <gemmule/parameters/section.h>
 
 #include <deal.II/base/parameter_handler.h>

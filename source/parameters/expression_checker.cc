@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #include <gemmule/parameters/expression_checker.h>
 #include <gemmule/parameters/expression_complaints.h>
 #include <gemmule/parameters/text.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #include <gemmule/parameters/characters.h>
 #include <gemmule/parameters/expression_tokens.h>
 #include <gemmule/parameters/text.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #include <gemmule/parameters/line_advice.h>
 #include <gemmule/parameters/suggestion.h>
 #include <gemmule/parameters/text.h>

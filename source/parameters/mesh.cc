@@ -1,4 +1,5 @@
-#include <gemmule/parameters/errors.h>
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <gemmule/base/exceptions.h>
 #include <gemmule/parameters/mesh.h>
 #include <gemmule/parameters/section.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // Boost's JSON parser includes a deprecated header of Boost's own, which says so unless told that we know.
 #define BOOST_BIND_GLOBAL_PLACEHOLDERS
 

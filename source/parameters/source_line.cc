@@ -1,5 +1,6 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <gemmule/base/exceptions.h>
 #include <gemmule/parameters/characters.h>
-#include <gemmule/parameters/errors.h>
 #include <gemmule/parameters/source_line.h>
 #include <gemmule/parameters/text.h>
 

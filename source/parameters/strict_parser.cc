@@ -1,4 +1,5 @@
-#include <gemmule/parameters/errors.h>
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <gemmule/base/exceptions.h>
 #include <gemmule/parameters/line_advice.h>
 #include <gemmule/parameters/strict_parser.h>
 #include <gemmule/parameters/suggestion.h>

@@ -1,7 +1,8 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <gemmule/base/exceptions.h>
 #include <gemmule/geometry/membrane_snapshot.h>
 #include <gemmule/model/membrane_model.h>
 #include <gemmule/parameters/discretisation.h>
-#include <gemmule/parameters/errors.h>
 #include <gemmule/surface/cahn_hilliard.h>
 #include <gemmule/surface/trace_forms.h>
 
@@ -88,9 +89,9 @@ void CahnHilliard<dim>::assemble_matrix(const TraceSpace<dim> &space, const Surf
   system.zero_matrix();
   FullMatrix<double> matrix(2 * n, 2 * n);
   SurfacePoint<dim> point;
-  for (unsigned int k = 0; k < space.band().size(); ++k)
+  for (unsigned int k = 0; k < space.active_mesh().size(); ++k)
   {
-    const auto &cell = space.band()[k];
+    const auto &cell = space.active_mesh()[k];
     const double penalty = parameters.normal_stabilisation / cell.size;
     for (unsigned int i = 0; i < n; ++i)
       for (unsigned int j = 0; j < n; ++j)
@@ -136,9 +137,9 @@ std::vector<double> CahnHilliard<dim>::assemble_rhs(const TraceSpace<dim> &space
   std::vector<double> rhs(2 * space.n_unknowns(), 0.);
   std::array<double, 2 * Basis::n> local;
   typename Basis::Values values;
-  for (unsigned int k = 0; k < space.band().size(); ++k)
+  for (unsigned int k = 0; k < space.active_mesh().size(); ++k)
   {
-    const auto &cell = space.band()[k];
+    const auto &cell = space.active_mesh()[k];
     local.fill(0.);
     add_history(cell, step, &MembraneCloud<dim>::concentration, local.data());
     if (cell.cut)
@@ -208,9 +209,9 @@ void CahnHilliard<dim>::initialise(const TraceSpace<dim> &space, const TraceFiel
   FullMatrix<double> matrix(n, n);
   std::array<double, n> local;
   SurfacePoint<dim> point;
-  for (unsigned int k = 0; k < space.band().size(); ++k)
+  for (unsigned int k = 0; k < space.active_mesh().size(); ++k)
   {
-    const auto &cell = space.band()[k];
+    const auto &cell = space.active_mesh()[k];
     stabilised_mass_matrix(cell, matrix);
     local.fill(0.);
     if (cell.cut)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #include <gemmule/geometry/membrane_snapshot.h>
 #include <gemmule/surface/conservative_transport.h>
 #include <gemmule/surface/trace_forms.h>
@@ -26,9 +27,9 @@ TraceField<dim> ConservativeTransport<dim>::advance(const TraceSpace<dim> &space
   FullMatrix<double> matrix(n, n);
   std::array<double, n> local;
   SurfacePoint<dim> point;
-  for (unsigned int k = 0; k < space.band().size(); ++k)
+  for (unsigned int k = 0; k < space.active_mesh().size(); ++k)
   {
-    const auto &cell = space.band()[k];
+    const auto &cell = space.active_mesh()[k];
     matrix.equ(stabilisation / cell.size, cell.normal_derivatives);
     if (cell.cut)
       for (unsigned int q = 0; q < cell.cut->surface_points.size(); ++q)

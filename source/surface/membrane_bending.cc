@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #include <gemmule/geometry/membrane_snapshot.h>
 #include <gemmule/surface/membrane_bending.h>
 #include <gemmule/surface/trace_forms.h>
@@ -29,9 +30,9 @@ void MembraneBending<dim>::assemble_mass_matrix()
   begin_system(space, 1, system);
   system.zero_matrix();
   FullMatrix<double> matrix(n, n);
-  for (unsigned int k = 0; k < space.band().size(); ++k)
+  for (unsigned int k = 0; k < space.active_mesh().size(); ++k)
   {
-    stabilised_mass_matrix(space.band()[k], matrix);
+    stabilised_mass_matrix(space.active_mesh()[k], matrix);
     system.add_matrix(k, matrix);
   }
   system.factorise();
@@ -42,16 +43,16 @@ void MembraneBending<dim>::compute_curvature(const CutGeometry<dim> &geometry,
                                              const DoFHandler<dim> &level_set_dofs, const Vector &level_set)
 {
   constexpr unsigned int n = TraceSpace<dim>::Basis::n;
-  // Without clouds the band consists of the cut cells.
+  // Without clouds the active mesh consists of the cut cells.
   space.prepare(geometry, level_set_dofs, level_set, {{nullptr, nullptr}});
   assemble_mass_matrix();
 
   std::vector<std::vector<double>> solutions(dim, std::vector<double>(space.n_unknowns(), 0.));
   SurfacePoint<dim> point;
   std::array<std::array<double, n>, dim> local;
-  for (unsigned int k = 0; k < space.band().size(); ++k)
+  for (unsigned int k = 0; k < space.active_mesh().size(); ++k)
   {
-    const CutCell<dim> &cell = *space.band()[k].cut;
+    const CutCell<dim> &cell = *space.active_mesh()[k].cut;
     for (auto &component : local)
       component.fill(0.);
     for (unsigned int q = 0; q < cell.surface_points.size(); ++q)
@@ -92,10 +93,10 @@ void MembraneBending<dim>::compute_moment(const TraceField<dim> *const concentra
   std::array<double, Basis::n> local;
   SurfacePoint<dim> point;
   double energy = 0., largest_numerical_rigidity = 0.;
-  for (unsigned int b = 0; b < space.band().size(); ++b)
+  for (unsigned int b = 0; b < space.active_mesh().size(); ++b)
   {
-    const CutCell<dim> &cell = *space.band()[b].cut;
-    const unsigned int k = space.band()[b].cut_index;
+    const CutCell<dim> &cell = *space.active_mesh()[b].cut;
+    const unsigned int k = space.active_mesh()[b].cut_index;
     local.fill(0.);
     for (unsigned int q = 0; q < cell.surface_points.size(); ++q)
     {

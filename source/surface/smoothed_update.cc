@@ -1,5 +1,6 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <gemmule/base/exceptions.h>
 #include <gemmule/geometry/membrane_snapshot.h>
-#include <gemmule/parameters/errors.h>
 #include <gemmule/surface/smoothed_update.h>
 #include <gemmule/surface/trace_forms.h>
 
@@ -64,9 +65,9 @@ TraceField<dim> SmoothedUpdate<dim>::smoothed_rate(const TraceSpace<dim> &space,
   FullMatrix<double> matrix(2 * n, 2 * n), stiffness(n, n), mass(n, n);
   std::array<double, 2 * n> local;
   SurfacePoint<dim> point;
-  for (unsigned int k = 0; k < space.band().size(); ++k)
+  for (unsigned int k = 0; k < space.active_mesh().size(); ++k)
   {
-    const auto &cell = space.band()[k];
+    const auto &cell = space.active_mesh()[k];
     stiffness.equ(stabilisation / cell.size, cell.normal_derivatives);
     mass.equ(stabilisation * cell.size, cell.normal_derivatives);
     local.fill(0.);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #include <gemmule/geometry/membrane_snapshot.h>
 #include <gemmule/geometry/membrane_transport.h>
 #include <gemmule/model/membrane_model.h>

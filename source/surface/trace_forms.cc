@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #include <gemmule/algebra/element_system.h>
 #include <gemmule/geometry/membrane_snapshot.h>
 #include <gemmule/surface/trace_forms.h>
@@ -33,7 +34,7 @@ void begin_system(const TraceSpace<dim> &space, const unsigned int n_fields, Ele
 }
 
 template <int dim>
-void stabilised_mass_matrix(const BandCell<dim> &cell, FullMatrix<double> &matrix)
+void stabilised_mass_matrix(const TraceCell<dim> &cell, FullMatrix<double> &matrix)
 {
   matrix.equ(cell.size, cell.normal_derivatives);
   if (!cell.cut)
@@ -49,7 +50,7 @@ void stabilised_mass_matrix(const BandCell<dim> &cell, FullMatrix<double> &matri
 }
 
 template <int dim>
-void add_history(const BandCell<dim> &cell, const SurfaceStep<dim> &step,
+void add_history(const TraceCell<dim> &cell, const SurfaceStep<dim> &step,
                  std::vector<double> MembraneCloud<dim>::*const density, double *const local)
 {
   using Basis = typename TraceSpace<dim>::Basis;
@@ -81,9 +82,9 @@ TraceField<dim> project(const TraceSpace<dim> &space,
   FullMatrix<double> matrix(n, n);
   std::array<double, n> local;
   SurfacePoint<dim> point;
-  for (unsigned int k = 0; k < space.band().size(); ++k)
+  for (unsigned int k = 0; k < space.active_mesh().size(); ++k)
   {
-    const auto &cell = space.band()[k];
+    const auto &cell = space.active_mesh()[k];
     stabilised_mass_matrix(cell, matrix);
     local.fill(0.);
     if (cell.cut)
@@ -104,8 +105,8 @@ TraceField<dim> project(const TraceSpace<dim> &space,
 
 #define GEMMULE_INSTANTIATE(dim)                                                                             \
   template void begin_system(const TraceSpace<dim> &, unsigned int, ElementSystem &);                        \
-  template void stabilised_mass_matrix(const BandCell<dim> &, FullMatrix<double> &);                         \
-  template void add_history(const BandCell<dim> &, const SurfaceStep<dim> &,                                 \
+  template void stabilised_mass_matrix(const TraceCell<dim> &, FullMatrix<double> &);                        \
+  template void add_history(const TraceCell<dim> &, const SurfaceStep<dim> &,                                \
                             std::vector<double> MembraneCloud<dim>::*, double *);                            \
   template TraceField<dim> project(                                                                          \
       const TraceSpace<dim> &,                                                                               \

@@ -1,6 +1,7 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <gemmule/base/exceptions.h>
 #include <gemmule/geometry/cut_geometry.h>
 #include <gemmule/geometry/membrane_snapshot.h>
-#include <gemmule/parameters/errors.h>
 #include <gemmule/surface/trace_space.h>
 
 #include <deal.II/base/mpi.h>
@@ -59,7 +60,7 @@ TraceSpace<dim>::nodal_level_set(const unsigned int active_cell_index, const DoF
 template <int dim>
 void TraceSpace<dim>::locate_clouds(const DoFHandler<dim> &level_set_dofs, const Vector &level_set,
                                     const std::array<const MembraneCloud<dim> *, 2> &clouds,
-                                    std::vector<bool> &in_band)
+                                    std::vector<bool> &is_in_active_mesh)
 {
   located.clear();
   std::size_t n_points = 0;
@@ -84,7 +85,7 @@ void TraceSpace<dim>::locate_clouds(const DoFHandler<dim> &level_set_dofs, const
             nodal = nodal_level_set(nodal_of = cell->active_cell_index, level_set_dofs, level_set);
           distance[k] = TensorLagrange<dim, 3>::value(nodal, unit);
           distance.back() += 1.;
-          in_band[cell->active_cell_index] = true;
+          is_in_active_mesh[cell->active_cell_index] = true;
           located.push_back({cell->active_cell_index, c, {i, unit}});
         }
   Utilities::MPI::sum(ArrayView<const double>(distance), communicator(), ArrayView<double>(distance));
@@ -93,7 +94,7 @@ void TraceSpace<dim>::locate_clouds(const DoFHandler<dim> &level_set_dofs, const
         "The membrane reaches out of the box; enlarge section \"Domain\" or end the run earlier.");
 
   // Cells between an earlier point and the membrane of now, on whichever rank they are: without them a
-  // membrane that moves by more than a cell would leave parts of the band unconnected, and the system
+  // membrane that moves by more than a cell would leave parts of the active mesh unconnected, and the system
   // singular.
   k = 0;
   for (const auto *cloud : clouds)
@@ -104,13 +105,13 @@ void TraceSpace<dim>::locate_clouds(const DoFHandler<dim> &level_set_dofs, const
         for (unsigned int s = 1; s < n_samples; ++s)
           if (const auto *cell =
                   locator.find(cloud->points[i] - (s * distance[k] / n_samples) * cloud->normals[i]))
-            in_band[cell->active_cell_index] = true;
+            is_in_active_mesh[cell->active_cell_index] = true;
       }
 }
 
 template <int dim>
 void TraceSpace<dim>::compute_normal_derivatives(
-    BandCell<dim> &cell, const std::array<double, TensorLagrange<dim, 3>::n> &level_set) const
+    TraceCell<dim> &cell, const std::array<double, TensorLagrange<dim, 3>::n> &level_set) const
 {
   static const QGauss<dim> quadrature(3);
   constexpr unsigned int n = Basis::n;
@@ -148,30 +149,30 @@ void TraceSpace<dim>::prepare(const CutGeometry<dim> &geometry, const DoFHandler
 {
   AssertDimension(owned_cells.size(), triangulation.n_active_cells());
   current_geometry = &geometry;
-  std::vector<bool> in_band(triangulation.n_active_cells(), false);
+  std::vector<bool> is_in_active_mesh(triangulation.n_active_cells(), false);
   for (const auto &cut : geometry.cut_cells())
-    in_band[cut.active_cell_index] = true;
-  locate_clouds(level_set_dofs, level_set, clouds, in_band);
-  active_dofs.reinit(dof_handler, constraints, in_band);
+    is_in_active_mesh[cut.active_cell_index] = true;
+  locate_clouds(level_set_dofs, level_set, clouds, is_in_active_mesh);
+  active_dofs.reinit(dof_handler, constraints, is_in_active_mesh);
 
   cells.clear();
   cell_elements.clear();
-  std::vector<unsigned int> band_cell_of(in_band.size(), numbers::invalid_unsigned_int);
+  std::vector<unsigned int> trace_cell_of(is_in_active_mesh.size(), numbers::invalid_unsigned_int);
   std::vector<types::global_dof_index> dofs(Basis::n), ordered(Basis::n);
-  for (unsigned int index = 0; index < in_band.size(); ++index)
-    if (in_band[index])
+  for (unsigned int index = 0; index < is_in_active_mesh.size(); ++index)
+    if (is_in_active_mesh[index])
     {
       const auto &cell = owned_cells[index];
-      BandCell<dim> band_cell;
-      band_cell.active_cell_index = index;
-      band_cell.corner = cell->vertex(0);
-      band_cell.size = cell->extent_in_direction(0);
-      band_cell.cut = geometry.find(index);
-      if (band_cell.cut)
-        band_cell.cut_index = band_cell.cut - geometry.cut_cells().data();
-      compute_normal_derivatives(band_cell, nodal_level_set(index, level_set_dofs, level_set));
-      band_cell_of[index] = cells.size();
-      cells.push_back(std::move(band_cell));
+      TraceCell<dim> trace_cell;
+      trace_cell.active_cell_index = index;
+      trace_cell.corner = cell->vertex(0);
+      trace_cell.size = cell->extent_in_direction(0);
+      trace_cell.cut = geometry.find(index);
+      if (trace_cell.cut)
+        trace_cell.cut_index = trace_cell.cut - geometry.cut_cells().data();
+      compute_normal_derivatives(trace_cell, nodal_level_set(index, level_set_dofs, level_set));
+      trace_cell_of[index] = cells.size();
+      cells.push_back(std::move(trace_cell));
 
       cell->get_dof_indices(dofs);
       for (unsigned int i = 0; i < Basis::n; ++i)
@@ -182,7 +183,7 @@ void TraceSpace<dim>::prepare(const CutGeometry<dim> &geometry, const DoFHandler
       cell_elements.push_back(std::move(element));
     }
   for (const auto &entry : located)
-    cells[band_cell_of[entry.active_cell_index]].cloud_points[entry.cloud].push_back(entry.point);
+    cells[trace_cell_of[entry.active_cell_index]].cloud_points[entry.cloud].push_back(entry.point);
 }
 
 template <int dim>

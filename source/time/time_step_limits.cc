@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #include <gemmule/time/time_step_limits.h>
 
 #include <algorithm>

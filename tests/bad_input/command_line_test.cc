@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // Command lines that are right but do not compute, messages of parallel runs, permissions, and what happens
 // to the results of earlier runs. The messages about wrong command lines are in command_lines.txt.
 #include <gemmule/parameters/all_parameters.h>

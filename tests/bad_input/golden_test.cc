@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // The messages about wrong input, word by word.
 //
 // Each file of tests/bad_input/files is a wrong parameter file. Its first comment says what is wrong, its
@@ -6,8 +7,8 @@
 // environment, which writes the present messages into the sources; then read what it has written as somebody
 // would who sees the message for the first time: does it say what is wrong, where, and what to do?
 #include <gemmule/application/vesicle_problem.h>
+#include <gemmule/base/exceptions.h>
 #include <gemmule/parameters/all_parameters.h>
-#include <gemmule/parameters/errors.h>
 #include <gemmule/parameters/text.h>
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // Directories for the results that cannot be used, and names that mean something else to a shell.
 #include "bad_input_fixture.h"
 

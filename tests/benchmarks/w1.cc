@@ -1,13 +1,14 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // Benchmark W1 (design section 5): what a given accuracy costs.
 //
 // The ellipse x^2 + 2 y^2 = 0.25 relaxes under the constant tension 1 in the box [-1, 1]^2 without slip, Ca =
 // 1, equal viscosities. The truth is a boundary-integral solution, accurate to 1e-9. Each resolution is run
 // through the same parts and the same step control as the program; output is left out, times are CPU times of
 // this (single-threaded) process.
-#include <gemmule/application/coupled_system.h>
+#include <gemmule/base/exceptions.h>
+#include <gemmule/coupling/coupled_system.h>
 #include <gemmule/geometry/region_moments.h>
 #include <gemmule/mesh/box_mesh.h>
-#include <gemmule/parameters/errors.h>
 #include <gemmule/time/step_control.h>
 
 #include <deal.II/base/mpi.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // Initial membranes that a search on a lattice loses, and level sets in unusual units: what the program makes
 // of them, against the exact areas.
 #include <cmath>

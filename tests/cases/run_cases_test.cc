@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // Every parameter file that is shipped: it is valid, it computes, and its results are what scripts rely on.
 #include <cmath>
 #include <gtest/gtest.h>

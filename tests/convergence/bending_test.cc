@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // Curvature, bending force and the motion that follows, against exact values.
 #include <gemmule/surface/trace_forms.h>
 

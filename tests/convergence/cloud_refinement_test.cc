@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // The quadrature points of an earlier membrane on a mesh that has been refined since.
 #include <gemmule/geometry/cloud_refinement.h>
 #include <gemmule/geometry/cut_geometry.h>

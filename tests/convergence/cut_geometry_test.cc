@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // Verification ladder, step 1 (design section 5): lengths, areas and normals from the cut-cell rules.
 #include <gemmule/geometry/cut_geometry.h>
 

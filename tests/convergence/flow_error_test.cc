@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // The estimated error of the flow against the exact one.
 #include <deal.II/base/mpi.h>
 #include <deal.II/fe/fe_values.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // Verification ladder, step 2 (design section 5): the semi-Lagrangian level set in given velocity fields.
 #include <gemmule/geometry/level_set.h>
 #include <gemmule/geometry/membrane_transport.h>
@@ -72,7 +73,7 @@ namespace
           fields[c].previous_velocity[i] = transported[c].previous_velocity[i];
         }
       const auto patches = gather_patches(geometry.cut_cells(), fields, MPI_COMM_WORLD);
-      const auto band = level_set.gather_band();
+      const auto band = level_set.gather_narrow_band();
       const MembraneProjection<2> projection(patches, origin);
       const MembraneMotion<2> motion(projection, dt, step == 0 ? 0. : dt);
       if (remesh_each_step)
@@ -90,7 +91,7 @@ namespace
         triangulation.execute_coarsening_and_refinement();
         level_set.reinit_mesh();
       }
-      level_set.advance(motion, BandLevelSet<2>(band, origin), projection.distance_drift() > 0.1);
+      level_set.advance(motion, NarrowBandLevelSet<2>(band, origin), projection.distance_drift() > 0.1);
       geometry.reinit(level_set.get_dof_handler(), level_set.values());
       transported = transport_fields(motion, geometry.cut_cells());
     }

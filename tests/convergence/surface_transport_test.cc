@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #include <gemmule/surface/conservative_transport.h>
 #include <gemmule/surface/smoothed_update.h>
 #include <gemmule/surface/trace_forms.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // Wrinkles of a membrane under negative tension: with bending rigidity their growth is that of linear theory,
 // and the mesh has no say in it.
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // Thousands of wrong parameter files and command lines: each is accepted, or refused by a UserError with a
 // message of one line; none crashes, hangs or ends in another exception. What is accepted can be printed and
 // read back.
@@ -5,8 +6,8 @@
 // In the environment: GEMMULE_FUZZ_INPUTS (number of inputs), GEMMULE_FUZZ_SEED, GEMMULE_FUZZ_ONLY (only the
 // input of this number, to repeat a failure; it is left in fuzz-input.prm).
 #include <gemmule/application/command_line.h>
+#include <gemmule/base/exceptions.h>
 #include <gemmule/parameters/all_parameters.h>
-#include <gemmule/parameters/errors.h>
 #include <gemmule/parameters/schema.h>
 #include <gemmule/parameters/text.h>
 

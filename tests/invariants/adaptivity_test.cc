@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // What refinement meets in a run: walls and other membranes that are near, phase boundaries across levels,
 // and many remeshings in a row.
 #include <deal.II/base/mpi.h>

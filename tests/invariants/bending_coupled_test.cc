@@ -1,5 +1,6 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // Bending and the arclength constraints in the whole time step: relaxation rates, energy, conservation.
-#include <gemmule/parameters/errors.h>
+#include <gemmule/base/exceptions.h>
 
 #include <cmath>
 #include <gtest/gtest.h>

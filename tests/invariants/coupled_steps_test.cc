@@ -1,5 +1,6 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // Imposed flows, order in time, and what a step that is repeated or rejected leaves behind.
-#include <gemmule/parameters/errors.h>
+#include <gemmule/base/exceptions.h>
 
 #include <cmath>
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // The whole time step respects the symmetries of the model that the mesh has as well.
 #include <cmath>
 #include <gtest/gtest.h>

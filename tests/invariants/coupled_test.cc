@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // The whole time step: benchmarks with known answers, what the model conserves, its symmetries.
 #include <cmath>
 #include <gtest/gtest.h>

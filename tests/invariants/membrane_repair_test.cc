@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // What is smaller than a cell is removed from a membrane, with changes of its topology; area and masses stay.
 #include <gemmule/geometry/membrane_repair.h>
 #include <gemmule/geometry/membrane_transport.h>
@@ -31,7 +32,7 @@ double error_on_a_circle(const unsigned int level)
   membrane.origin = Point<2>(-1., -1.);
   membrane.patches = gather_bare_patches(geometry, MPI_COMM_WORLD);
   level_set.set_distance(MembraneProjection<2>(membrane.patches, membrane.origin));
-  membrane.band = level_set.gather_band();
+  membrane.narrow_band = level_set.gather_narrow_band();
   membrane.cloud = gather_cloud(bare_cloud(geometry), MPI_COMM_WORLD);
   EXPECT_EQ(largest_unresolved_cell(MembraneProjection<2>(membrane.patches, membrane.origin), 1.), 0.);
 

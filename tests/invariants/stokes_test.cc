@@ -1,5 +1,6 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // What the flow keeps for any position of the membrane: robustness, energy, volume, arclength penalty, ranks.
-#include <gemmule/parameters/errors.h>
+#include <gemmule/base/exceptions.h>
 
 #include <deal.II/base/function_signed_distance.h>
 #include <deal.II/base/quadrature_lib.h>
@@ -121,7 +122,7 @@ TEST(ParallelStokesInvariants, ArclengthPenaltyActsAtTheEndOfTheStep)
     }
 
     // The same flow from the total tension given explicitly.
-    const MembraneScalar given = flow.tension;
+    const MembranePointValues given = flow.tension;
     const double work = flow.solver.membrane_work();
     for (auto &cell : flow.tension)
       for (auto &sigma : cell)

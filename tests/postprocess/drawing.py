@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """Drawing pictures within the test's process, which is quicker than a process of its own, and damaging results."""
 
 import contextlib

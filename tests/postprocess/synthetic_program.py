@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """A program that behaves like gemmule: its errors and its costs are known functions of its parameters."""
 
 import stat

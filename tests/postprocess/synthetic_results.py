@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """Results as a run would leave them, of a made-up vesicle: an ellipse that relaxes and drifts."""
 
 from pathlib import Path

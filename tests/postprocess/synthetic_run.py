@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """A run that goes on until it is ended: python3 synthetic_run.py DIRECTORY. Writes as the program does."""
 
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """The mathematics of the convergence study on curves and errors that are known, and the study with a made-up program."""
 
 import os

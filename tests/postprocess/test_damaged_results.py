@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """Results in which something is missing, half-written or damaged: what can be drawn is drawn, with one note."""
 
 import itertools

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """Pictures are the same whatever a user has set for matplotlib."""
 
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """The mesh study with a made-up program whose errors and costs are known."""
 
 import subprocess

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """Necks of curves whose narrowest place and areas are known."""
 
 import sys

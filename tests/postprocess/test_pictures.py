@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """Draws synthetic results as a user would, and checks what is shown and what is complained about."""
 
 import subprocess

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """Reads results while another process writes them, as a user does who looks at a run."""
 
 import collections

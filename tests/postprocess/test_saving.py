@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """Where pictures go, and that a picture is either whole or as it was before."""
 
 import os

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """Run a case for thousands of steps and watch memory, area and masses.
 
     soak.py EXECUTABLE [CASE.prm] [--steps 5000] [--output DIR] [--set "Section/Key=value"]...

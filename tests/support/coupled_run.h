@@ -1,7 +1,8 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include <gemmule/application/coupled_system.h>
 #include <gemmule/application/reporting.h>
+#include <gemmule/coupling/coupled_system.h>
 #include <gemmule/time/step_control.h>
 
 namespace Gemmule::Testing

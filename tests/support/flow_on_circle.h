@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
 #include <gemmule/flow/stokes_solver.h>
@@ -24,7 +25,7 @@ struct FlowOnCircle
   Parameters::Fluid fluid;
   CutGeometry<dim> geometry;
   StokesSolver<dim> solver;
-  MembraneScalar tension;
+  MembranePointValues tension;
 
   FlowOnCircle(const unsigned int level, const Point<dim> &center, const double viscosity_ratio = 1.,
                const std::function<bool(const Point<dim> &)> &refine = {}, const double capillary_number = 1.)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // GoogleTest under MPI: every rank runs all tests, only rank 0 reports.
 #include <deal.II/base/mpi.h>
 

@@ -1,6 +1,7 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include <gemmule/output/rank_zero.h>
+#include <gemmule/base/rank_zero.h>
 
 #include <deal.II/base/mpi.h>
 

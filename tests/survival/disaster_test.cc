@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // What no program can prevent: kills, full disks, damaged files.
 #include <random>
 #include <sys/mount.h>

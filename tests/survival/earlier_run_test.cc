@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // What becomes of results that are in the output directory when a run begins: nothing is lost, and what a
 // message advises works.
 #include "survival_fixture.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // Expressions of t that make no sense any more once the run has begun.
 #include <gtest/gtest.h>
 #include <ostream>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // Disks of many sizes that become full, and others that do not take the results: the message says why, and
 // what it advises leads to the results of a run that nothing has disturbed.
 #include <fcntl.h>

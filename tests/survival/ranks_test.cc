@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // More ranks than there are cells for: those without cells take part in everything and change nothing.
 #include "survival_fixture.h"
 

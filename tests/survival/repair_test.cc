@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // A membrane that the mesh does not resolve any more: given up, or repaired, also when the run is resumed.
 #include "survival_fixture.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // A run that is interrupted and resumed computes what it would have computed anyway.
 #include "survival_fixture.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // Signals that would end the program save the state, or end the set-up at once.
 #include "survival_fixture.h"
 

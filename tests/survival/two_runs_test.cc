@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // Two runs at once in one directory.
 #include "survival_fixture.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #include <gemmule/mesh/cell_locator.h>
 
 #include <deal.II/base/mpi.h>

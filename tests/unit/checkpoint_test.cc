@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // Checkpoints as files: what is on the disk, and what is made of it when it is not as it was written.
 #include <gemmule/application/checkpoints.h>
+#include <gemmule/base/exceptions.h>
 #include <gemmule/output/checkpoint_directory.h>
 #include <gemmule/output/hdf5_file.h>
 #include <gemmule/output/named_arrays.h>
-#include <gemmule/parameters/errors.h>
 
 #include <limits>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #include <gemmule/geometry/curve_order.h>
 
 #include <deal.II/base/numbers.h>

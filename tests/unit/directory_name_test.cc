@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // Names of directories that the file system takes, and that nobody means.
 #include <gemmule/parameters/directory_name.h>
 #include <gemmule/parameters/text.h>

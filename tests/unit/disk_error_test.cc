@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // Messages about files that cannot be written: the true reason, and what removes it.
 #include <gemmule/output/disk.h>
 #include <gemmule/output/hdf5_file.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // doc/output.md explains all that the program writes.
 #include <gemmule/output/interface_output.h>
 #include <gemmule/output/provenance.h>

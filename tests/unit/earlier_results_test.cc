@@ -1,11 +1,12 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // What is in the output directory before a run: whose it is, and what becomes of it.
+#include <gemmule/base/exceptions.h>
 #include <gemmule/output/checkpoint_directory.h>
 #include <gemmule/output/earlier_results.h>
 #include <gemmule/output/hdf5_file.h>
 #include <gemmule/output/output_directory.h>
 #include <gemmule/output/provenance.h>
 #include <gemmule/output/statistics.h>
-#include <gemmule/parameters/errors.h>
 
 #include "support/output_test.h"
 

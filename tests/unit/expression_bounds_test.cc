@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // Bounds of expressions on cubes: no value and no slope that muParser's evaluation has may lie outside of
 // them.
 #include <gemmule/parameters/expression.h>

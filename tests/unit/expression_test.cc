@@ -1,6 +1,7 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // Expressions: what they mean, and that those which muParser would take for something else are refused.
+#include <gemmule/base/exceptions.h>
 #include <gemmule/parameters/all_parameters.h>
-#include <gemmule/parameters/errors.h>
 #include <gemmule/parameters/expression.h>
 #include <gemmule/parameters/expression_checker.h>
 #include <gemmule/parameters/expression_names.h>

@@ -1,7 +1,8 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // A failure of one process alone must not leave the others, or itself, waiting for ever.
-#include <gemmule/algebra/arrival.h>
 #include <gemmule/algebra/mumps_solver.h>
-#include <gemmule/output/rank_zero.h>
+#include <gemmule/base/arrival.h>
+#include <gemmule/base/rank_zero.h>
 
 #include <deal.II/base/mpi.h>
 

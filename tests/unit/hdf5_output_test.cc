@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // What goes to HDF5 and XDMF is read back, as a user's script, a resumed run or ParaView would.
+#include <gemmule/base/exceptions.h>
 #include <gemmule/output/field_output.h>
 #include <gemmule/output/hdf5_file.h>
 #include <gemmule/output/interface_output.h>
-#include <gemmule/parameters/errors.h>
 #include <gemmule/version.h>
 
 #include <deal.II/base/function_lib.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // The filter of the level set: what it leaves alone, what it removes, and that it does not diffuse.
 #include <gemmule/geometry/level_set_filter.h>
 

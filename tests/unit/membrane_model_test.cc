@@ -1,6 +1,7 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <gemmule/base/exceptions.h>
 #include <gemmule/model/energy_registry.h>
 #include <gemmule/model/membrane_model.h>
-#include <gemmule/parameters/errors.h>
 
 #include <cmath>
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // Finding the zero set of a level set, and its distance, whatever the level set is away from it.
 #include <gemmule/geometry/zero_set_distance.h>
 #include <gemmule/mesh/membrane_search.h>

@@ -1,5 +1,6 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // Which cells the adaptation makes for given samples of a membrane.
-#include <gemmule/algebra/gather.h>
+#include <gemmule/base/gather.h>
 #include <gemmule/mesh/mesh_adaptation.h>
 
 #include <deal.II/base/mpi.h>

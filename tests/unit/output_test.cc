@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // What the output module writes as text is read back, as a user's script or a resumed run would.
 #include "support/output_test.h"
 
+#include <gemmule/base/exceptions.h>
 #include <gemmule/output/output_directory.h>
 #include <gemmule/output/run_log.h>
 #include <gemmule/output/statistics.h>
-#include <gemmule/parameters/errors.h>
 
 #include <deal.II/base/numbers.h>
 

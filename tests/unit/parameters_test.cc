@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // Parameters without the program around them: defaults, reading, printing, overrides, expressions.
+#include <gemmule/base/exceptions.h>
+#include <gemmule/base/raise_together.h>
 #include <gemmule/parameters/all_parameters.h>
-#include <gemmule/parameters/errors.h>
 #include <gemmule/parameters/expression.h>
-#include <gemmule/parameters/raise_together.h>
 #include <gemmule/parameters/section.h>
 #include <gemmule/parameters/suggestion.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // Which levels the criteria ask for, on shapes whose curvatures and distances are known.
 #include <gemmule/mesh/curvature_criterion.h>
 #include <gemmule/mesh/flow_error_criterion.h>

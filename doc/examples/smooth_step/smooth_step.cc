@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // A surface energy of one's own in a program of one's own, linked with the installed library
 // (doc/extending.md):
 //   smooth_step CASE.prm

@@ -1,6 +1,7 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include <gemmule/application/coupled_system.h>
+#include <gemmule/coupling/coupled_system.h>
 #include <gemmule/output/field_output.h>
 #include <gemmule/output/interface_output.h>
 #include <gemmule/output/statistics.h>

@@ -1,6 +1,7 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include <gemmule/application/coupled_state.h>
+#include <gemmule/coupling/coupled_state.h>
 #include <gemmule/output/interface_output.h>
 #include <gemmule/output/statistics.h>
 #include <gemmule/time/step_control.h>

@@ -1,11 +1,12 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
 #include <gemmule/application/stop_conditions.h>
+#include <gemmule/base/exceptions.h>
 #include <gemmule/output/provenance.h>
 #include <gemmule/output/run_log.h>
 #include <gemmule/output/statistics.h>
 #include <gemmule/parameters/all_parameters.h>
-#include <gemmule/parameters/errors.h>
 
 #include <deal.II/base/timer.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
 #include <gemmule/flow/membrane_velocity.h>
@@ -8,9 +9,6 @@
 
 namespace Gemmule
 {
-/** One number per quadrature point of the membrane: [locally owned cut cell][point], as in CutGeometry. */
-using MembraneScalar = std::vector<std::vector<double>>;
-
 /**
  * The surface divergence of <v> on the membrane and the functionals made of it: the force of the tension
  * -(1/Ca) int sigma div_s <v>, which needs neither curvature nor derivatives of the tension, the rate of
@@ -31,9 +29,9 @@ public:
    * Adds this rank's part of -(1/Ca) int (sigma + offset) div_s <v>.
    * @param tension sigma; nullptr for zero
    */
-  void add_rhs(const MembraneScalar *tension, double offset, double capillary_number, const FluidPair &fluids,
-               const std::vector<StokesCellElement> &cut_cell_elements, const ElementSystem &system,
-               std::vector<double> &rhs) const;
+  void add_rhs(const MembranePointValues *tension, double offset, double capillary_number,
+               const FluidPair &fluids, const std::vector<StokesCellElement> &cut_cell_elements,
+               const ElementSystem &system, std::vector<double> &rhs) const;
 
   /** <u> = w2 u1 + w1 u2 on the locally owned cut cells from the unknowns of the system; @p homogeneous: of a
    * solution with zero velocity at the walls. */
@@ -43,7 +41,8 @@ public:
 
   /** int (sigma + offset) div_s <u>: this rank's part. With sigma = 0, offset = 1 the rate of change of
    * arclength. */
-  double integrate_divergence(const MembraneScalar *tension, double offset, const Velocity &velocity) const;
+  double integrate_divergence(const MembranePointValues *tension, double offset,
+                              const Velocity &velocity) const;
 
   /** int <u>.n: this rank's part. */
   double integrate_flux(const Velocity &velocity) const;

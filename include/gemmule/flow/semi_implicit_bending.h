@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
 #include <gemmule/flow/semi_implicit_tension.h>
@@ -8,7 +9,7 @@ namespace Gemmule
 /**
  * Damps the fast shape modes of the explicit coupling of bending and flow: adds to the flow problem
  *
- *   (S dt k / Ca) int grad_s z . (grad_s <v>)^T n,     int z y + h int_band (n.grad z)(n.grad y)
+ *   (S dt k / Ca) int grad_s z . (grad_s <v>)^T n,     int z y + h int_active (n.grad z)(n.grad y)
  *                                                      = int grad_s y . (grad_s w)^T n   for all y,
  *
  * w = <u> - u_old as in SemiImplicitTension: S dt times the linearised bending stiffness, since z is the rate
@@ -26,7 +27,7 @@ struct SemiImplicitBending
   using NodalVelocity = typename SemiImplicitTension<dim>::NodalVelocity;
 
   double coefficient = 0.;                                  ///< S dt k
-  const TraceSpace<dim> *space = nullptr;                   ///< its band: the cut cells
+  const TraceSpace<dim> *space = nullptr;                   ///< its active mesh: the cut cells
   const std::vector<NodalVelocity> *old_velocity = nullptr; ///< u_old on the cut cells, Q3
 
   /** Additional unknowns, on all ranks. */

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
 #include <gemmule/flow/membrane_force.h>
@@ -21,10 +22,10 @@ struct SemiImplicitTension
 {
   using NodalVelocity = std::array<dealii::Tensor<1, dim>, TensorLagrange<dim, 3>::n>;
 
-  double coefficient = 0.;                                  ///< S dt
-  const MembraneScalar *tension = nullptr;                  ///< sigma
-  const MembraneScalar *dilatational_modulus = nullptr;     ///< E = -d sigma / d log(length); nullptr: 0
-  const std::vector<NodalVelocity> *old_velocity = nullptr; ///< u_old on the cut cells, Q3
+  double coefficient = 0.;                                   ///< S dt
+  const MembranePointValues *tension = nullptr;              ///< sigma
+  const MembranePointValues *dilatational_modulus = nullptr; ///< E = -d sigma / d log(length); nullptr: 0
+  const std::vector<NodalVelocity> *old_velocity = nullptr;  ///< u_old on the cut cells, Q3
 
   /** Adds the matrices of the cut cells to the system, and what they do to boundary values to @p rhs. */
   void add_matrix(const CutGeometry<dim> &geometry, const MembraneForce<dim> &force, double capillary_number,

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
 #include <gemmule/flow/bending_force.h>
@@ -59,7 +60,7 @@ public:
    * @param penalty adds its tension to sigma; nullptr for none
    * @param bending adds the bending force; nullptr for none
    */
-  void solve(const MembraneScalar &tension, const ArclengthPenalty *penalty = nullptr,
+  void solve(const MembranePointValues &tension, const ArclengthPenalty *penalty = nullptr,
              const BendingForce<dim> *bending = nullptr);
 
   /** <u> on the locally owned cut cells, in the order of CutGeometry::cut_cells(). */

@@ -1,6 +1,7 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include <gemmule/geometry/tensor_lagrange.h>
+#include <gemmule/base/tensor_lagrange.h>
 
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>
@@ -12,6 +13,9 @@
 
 namespace Gemmule
 {
+/** One number per quadrature point of the membrane: [locally owned cut cell][point], as in CutGeometry. */
+using MembranePointValues = std::vector<std::vector<double>>;
+
 /** Points per direction of the Gauss rules that the rules of cut cells are made of. */
 constexpr unsigned int n_cut_gauss_points = 4;
 

@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include <gemmule/geometry/band_level_set.h>
 #include <gemmule/geometry/cut_geometry.h>
 #include <gemmule/geometry/level_set_filter.h>
 #include <gemmule/geometry/membrane_motion.h>
+#include <gemmule/geometry/narrow_band_level_set.h>
 
 #include <deal.II/base/function.h>
 #include <deal.II/distributed/tria.h>
@@ -16,12 +17,12 @@
 namespace Gemmule
 {
 /**
- * The level set phi: continuous Q3, negative inside the vesicle, signed distance in a band around the
+ * The level set phi: continuous Q3, negative inside the vesicle, signed distance in a narrow band around the
  * membrane (elsewhere only its sign matters).
  *
- * Semi-Lagrangian: every step sets phi anew in the band, at each node to the old level set at the node's old
- * position, with the displacement extended constantly along normals so that phi stays close to a distance.
- * The old level set comes as the polynomials on the old cells, so that refinement, coarsening and
+ * Semi-Lagrangian: every step sets phi anew in the narrow band, at each node to the old level set at the
+ * node's old position, with the displacement extended constantly along normals so that phi stays close to a
+ * distance. The old level set comes as the polynomials on the old cells, so that refinement, coarsening and
  * repartitioning between two steps cost no transfer error. What it has between the nodes of Q2 is
  * smoothed (LevelSetFilter). Where |grad phi| has drifted the step takes distances from the old membrane
  * instead, with the signs of the old level set (doc/method.md).
@@ -49,11 +50,11 @@ public:
                     const std::function<double(const ClosestPoint<dim> &)> &offset = nullptr);
 
   /**
-   * The same with the sides that a level set of that membrane tells (BandLevelSet::with_side), which do not
-   * depend on the normals beside its corners.
-   * @param width least half width of the band, where it takes more than the usual number of cells
+   * The same with the sides that a level set of that membrane tells (NarrowBandLevelSet::with_side), which do
+   * not depend on the normals beside its corners.
+   * @param width least half width of the narrow band, where it takes more than the usual number of cells
    */
-  void set_distance(const MembraneProjection<dim> &membrane, const BandLevelSet<dim> &sides,
+  void set_distance(const MembraneProjection<dim> &membrane, const NarrowBandLevelSet<dim> &sides,
                     double width = 0.);
 
   /**
@@ -61,10 +62,11 @@ public:
    * @param old_level_set level set of the old time level
    * @param redistance take distances from the old membrane instead of the values of the old level set: O(h^4)
    */
-  void advance(const MembraneMotion<dim> &motion, const BandLevelSet<dim> &old_level_set, bool redistance);
+  void advance(const MembraneMotion<dim> &motion, const NarrowBandLevelSet<dim> &old_level_set,
+               bool redistance);
 
   /** The cells with accurate values, complete on every rank: the next step's old level set. Collective. */
-  std::vector<LevelSetCell<dim>> gather_band() const;
+  std::vector<LevelSetCell<dim>> gather_narrow_band() const;
 
   /** All cells of the mesh, complete on every rank. Collective. */
   std::vector<LevelSetCell<dim>> gather_cells() const;
@@ -84,12 +86,12 @@ public:
   void restore(const std::vector<LevelSetCell<dim>> &cells, bool set_everywhere);
 
   /**
-   * Are all cells that the membrane cuts in the band of the last step? Elsewhere phi is not that of this
-   * membrane, but for its sign. Collective.
+   * Are all cells that the membrane cuts in the narrow band of the last step? Elsewhere phi is not that of
+   * this membrane, but for its sign. Collective.
    */
   bool is_accurate_around(const CutGeometry<dim> &geometry) const;
 
-  /** phi += amount in the band: moves the membrane inwards by this length (area correction). */
+  /** phi += amount in the narrow band: moves the membrane inwards by this length (area correction). */
   void shift(double amount);
 
   /** Nodal values on an owned cell. */
@@ -100,11 +102,11 @@ public:
   const Vector &values() const { return phi; }
 
 private:
-  /** Sets the nodes within the band by @p accurate, the others (if never set on this mesh) by the nearest
-   * sample, on the side that @p sides tells (nullptr: the normals of the samples). */
+  /** Sets the nodes within the narrow band by @p accurate, the others (if never set on this mesh) by the
+   * nearest sample, on the side that @p sides tells (nullptr: the normals of the samples). */
   void set_nodes(const MembraneProjection<dim> &membrane,
                  const std::function<double(const dealii::Point<dim> &)> &accurate,
-                 const BandLevelSet<dim> *sides, double least_width = 0.);
+                 const NarrowBandLevelSet<dim> *sides, double least_width = 0.);
   void finish();
 
   const dealii::parallel::distributed::Triangulation<dim> &triangulation;
@@ -115,6 +117,6 @@ private:
   const LevelSetFilter<dim> filter;
   Vector phi;
   bool far_nodes_are_set = false;
-  std::vector<bool> is_in_band; ///< by active_cell_index
+  std::vector<bool> is_in_narrow_band; ///< by active_cell_index
 };
 } // namespace Gemmule

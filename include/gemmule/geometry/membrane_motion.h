@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
 #include <gemmule/geometry/membrane_projection.h>
@@ -27,7 +28,7 @@ public:
   /** Where a point came from, and what moved it. */
   struct Trajectory
   {
-    ClosestPoint<dim> foot;              ///< closest point on the old membrane of the old position
+    ClosestPoint<dim> departure_point;   ///< closest point on the old membrane of the old position
     dealii::Tensor<1, dim> displacement; ///< new minus old position
     dealii::Tensor<1, dim> velocity;     ///< u*
   };
@@ -35,7 +36,7 @@ public:
   /**
    * Old position X with X + d(X) = x, d the displacement of the closest membrane point (fixed point; the
    * contraction rate is dt |grad_s u|). The new level set at x is the signed distance of the old position,
-   * trajectory.foot.distance.
+   * trajectory.departure_point.distance.
    */
   Trajectory trace_back(const dealii::Point<dim> &x) const;
 

@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include <gemmule/algebra/lattice_key.h>
-#include <gemmule/geometry/band_level_set.h>
+#include <gemmule/base/lattice_key.h>
 #include <gemmule/geometry/membrane_snapshot.h>
+#include <gemmule/geometry/narrow_band_level_set.h>
 
 #include <unordered_map>
 #include <vector>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
 #include <gemmule/geometry/cut_geometry.h>
@@ -24,7 +25,7 @@ double largest_unresolved_cell(const MembraneProjection<dim> &membrane, double l
  * @p radius the membrane stays, up to the error of making distances, O(h^4) each time. The topology changes
  * where that removes the last connection. The enclosed area is not kept.
  *
- * @param membrane of which patches, band and points are taken
+ * @param membrane of which patches, narrow band and points are taken
  * @param level_set becomes a signed distance of the new membrane, @p geometry its cut mesh
  * @return arclength (area in 3D) of the membrane before
  * @throws SimulationError if nothing is left. Collective.

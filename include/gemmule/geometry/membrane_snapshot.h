@@ -1,6 +1,7 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include <gemmule/geometry/tensor_lagrange.h>
+#include <gemmule/base/tensor_lagrange.h>
 
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>
@@ -69,7 +70,7 @@ struct MembraneCloud
 /**
  * The membrane at one time level, independent of the mesh and complete on every rank: it survives remeshing
  * and repartitioning without any transfer error (doc/method.md). A new member needs a line in
- * application/coupled_state.cc, so that checkpoints have it.
+ * coupling/coupled_state.cc, so that checkpoints have it.
  */
 template <int dim>
 struct MembraneSnapshot
@@ -77,7 +78,7 @@ struct MembraneSnapshot
   double time = 0.;
   dealii::Point<dim> origin;               ///< lower corner of the box: cells are at origin + integer * size
   std::vector<MembranePatch<dim>> patches; ///< the cut cells
-  std::vector<LevelSetCell<dim>> band;     ///< the cells with an accurate level set
+  std::vector<LevelSetCell<dim>> narrow_band; ///< the cells with an accurate level set
   MembraneCloud<dim> cloud;
 };
 } // namespace Gemmule

@@ -1,6 +1,7 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include <gemmule/algebra/lattice_key.h>
+#include <gemmule/base/lattice_key.h>
 
 #include <deal.II/base/point.h>
 #include <deal.II/grid/tria.h>

@@ -1,6 +1,7 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include <gemmule/algebra/lattice_key.h>
+#include <gemmule/base/lattice_key.h>
 #include <gemmule/mesh/box_lattice.h>
 #include <gemmule/parameters/function_bounds.h>
 

@@ -1,22 +1,13 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include <gemmule/parameters/errors.h>
+#include <gemmule/base/exceptions.h>
 
 #include <cstddef>
 #include <string>
 
 namespace Gemmule
 {
-/**
- * A file that the system does not let the program write or read. The message names the file, says why and
- * what removes the cause; whoever knows whether there is a checkpoint adds how to go on then.
- */
-class DiskError : public SimulationError
-{
-public:
-  using SimulationError::SimulationError;
-};
-
 /** What is behind an error of the system, in words for the user. */
 struct SystemReason
 {

@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <gemmule/base/exceptions.h>
 #include <gemmule/parameters/checkpoint.h>
 #include <gemmule/parameters/discretisation.h>
 #include <gemmule/parameters/domain.h>
-#include <gemmule/parameters/errors.h>
 #include <gemmule/parameters/fluid.h>
 #include <gemmule/parameters/membrane.h>
 #include <gemmule/parameters/mesh.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
 namespace dealii
@@ -27,7 +28,7 @@ struct Flow
  */
 struct Surface
 {
-  /** rho of (rho / h) (n.grad f)(n.grad v) on the band. */
+  /** rho of (rho / h) (n.grad f)(n.grad v) on the active mesh. */
   double normal_stabilisation = 1.;
   /** Newton stops when the residual has fallen by this factor. */
   double newton_tolerance = 1e-10;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
 #include <gemmule/algebra/element_system.h>
@@ -7,7 +8,7 @@
 namespace Gemmule
 {
 template <int dim>
-struct BandCell;
+struct TraceCell;
 template <int dim>
 class TraceSpace;
 namespace Parameters
@@ -23,7 +24,7 @@ namespace Parameters
  *     + (1/Pe) int_n grad_s mu.grad_s v + (rho/h) [s(f, v) + (1/Pe) s(mu, v)] = 0
  *   int_n mu w - int_n (g_f + M gamma_f (+ M w_f)) w - C^2 int_n grad_s f.grad_s w - C^2 (rho/h) s(f, w) = 0
  *
- * with s(a, b) = int_band (n.grad a)(n.grad b), and w the bending energy, if there is one. Fully implicit,
+ * with s(a, b) = int_active (n.grad a)(n.grad b), and w the bending energy, if there is one. Fully implicit,
  * hence E non-increasing for time steps that resolve the instability of the mixed state. Everything but g_f +
  * M gamma_f is linear, so that its linearisation error, known at each quadrature point, is the residual of
  * the whole system, and the mass is exact after every iteration.

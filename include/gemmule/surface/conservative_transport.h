@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
 #include <gemmule/algebra/element_system.h>
@@ -10,7 +11,7 @@ namespace Gemmule
  * fields"):
  *
  *   (1/dt)(a0 int_n fbar v + a1 int_{n-1} fbar v + a2 int_{n-2} fbar v) - int_n fbar u.grad v
- *     + D int_n grad_s fbar.grad_s v + (rho/h) int_band (n.grad fbar)(n.grad v) = 0
+ *     + D int_n grad_s fbar.grad_s v + (rho/h) int_active (n.grad fbar)(n.grad v) = 0
  *
  * with sums over the stored clouds for the earlier membranes. With v = 1 all terms but the first three
  * vanish: the mass is exact to round-off on any sequence of meshes.

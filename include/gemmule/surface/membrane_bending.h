@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
 #include <gemmule/algebra/element_system.h>
@@ -10,8 +11,8 @@ namespace Gemmule
  * Curvature and bending moment of the membrane in the trace space (Q2), from weak forms with first
  * derivatives only (design section 6; Dziuk 2008 for the curvature vector):
  *
- *   int K.w + h int_band (n.grad K).(n.grad w) = int (I - n n^T) : grad w      for all vectors w,
- *   int m v + h int_band (n.grad m)(n.grad v) = int k(c) (kappa - kappa_0(c)) v  for all v,   kappa = K.n.
+ *   int K.w + h int_active (n.grad K).(n.grad w) = int (I - n n^T) : grad w      for all vectors w,
+ *   int m v + h int_active (n.grad m)(n.grad v) = int k(c) (kappa - kappa_0(c)) v  for all v,   kappa = K.n.
  *
  * The right side of the first is the variation of the length of the membrane in the direction w, so that
  * kappa sees every displacement that changes the length, also those as short as a cell.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
 #include <gemmule/algebra/element_system.h>
@@ -14,7 +15,7 @@ namespace Gemmule
  *   m(r, v) + delta a(z, v) = (-S, v),   m(z, y) - a(r, y) = 0,
  *   m(r, v) = (r, v) + rho h s(r, v),    a(r, v) = (grad_s r, grad_s v) + (rho/h) s(r, v),
  *
- * s(a, b) = int_band (n.grad a)(n.grad b), followed by a0 fbar + a1 fbar_{n-1} + a2 fbar_{n-2} = dt r with
+ * s(a, b) = int_active (n.grad a)(n.grad b), followed by a0 fbar + a1 fbar_{n-1} + a2 fbar_{n-2} = dt r with
  * the earlier fields extended to the membrane at t_n. With the matrices M and A of the two forms the discrete
  * filter is (M + delta A M^{-1} A)^{-1}: a contraction for every delta, and one that leaves the mean of -S as
  * it is. The step is not conservative by itself; a constant is added to fbar in the end that makes the mass

@@ -1,6 +1,8 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include <gemmule/geometry/tensor_lagrange.h>
+#include <gemmule/base/tensor_lagrange.h>
+#include <gemmule/geometry/cut_geometry.h>
 #include <gemmule/time/bdf.h>
 
 #include <deal.II/base/tensor.h>
@@ -17,9 +19,6 @@ struct MembraneCloud;
  * CutGeometry. */
 template <int dim>
 using TraceField = std::vector<std::array<double, TensorLagrange<dim, 2>::n>>;
-
-/** One number per quadrature point of the membrane: [locally owned cut cell][point], as in CutGeometry. */
-using MembranePointValues = std::vector<std::vector<double>>;
 
 /** A field given to the surface equations: Q3 nodal values (lexicographic) of each locally owned cut cell. */
 template <int dim>

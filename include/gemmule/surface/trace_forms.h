@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
 #include <gemmule/geometry/cut_geometry.h>
@@ -52,27 +53,27 @@ public:
 };
 
 /** Sizes @p system for @p n_fields trace fields, stacked one after the other, with one element per cell of
- * the band. */
+ * the active mesh. */
 template <int dim>
 void begin_system(const TraceSpace<dim> &space, unsigned int n_fields, ElementSystem &system);
 
-/** matrix = int_membrane y v + h int_band (n.grad y)(n.grad v), the part of one cell of the band. */
+/** matrix = int_membrane y v + h int_active (n.grad y)(n.grad v), the part of one cell of the active mesh. */
 template <int dim>
-void stabilised_mass_matrix(const BandCell<dim> &cell, dealii::FullMatrix<double> &matrix);
+void stabilised_mass_matrix(const TraceCell<dim> &cell, dealii::FullMatrix<double> &matrix);
 
 /**
  * local[i] -= (a1 sum_{cloud n-1} w y phi_i + a2 sum_{cloud n-2} w y phi_i) / dt: what the earlier membranes
- * contribute to the right side of the conservative scheme in one cell of the band.
+ * contribute to the right side of the conservative scheme in one cell of the active mesh.
  *
  * @param density the member of MembraneCloud that is transported (f or fbar)
  */
 template <int dim>
-void add_history(const BandCell<dim> &cell, const SurfaceStep<dim> &step,
+void add_history(const TraceCell<dim> &cell, const SurfaceStep<dim> &step,
                  std::vector<double> MembraneCloud<dim>::*density, double *local);
 
 /**
  * L2-projection on the trace space of @p function, which gets cut cell (its number), quadrature point (its
- * number) and its position; normally extended by the stabilisation h int_band (n.grad y)(n.grad v).
+ * number) and its position; normally extended by the stabilisation h int_active (n.grad y)(n.grad v).
  * Collective.
  */
 template <int dim>

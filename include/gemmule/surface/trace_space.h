@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
 #include <gemmule/algebra/active_dofs.h>
@@ -21,9 +22,9 @@ class CutGeometry;
 template <int dim>
 struct CutCell;
 
-/** A locally owned cell of the active band. */
+/** A locally owned cell of the active mesh. */
 template <int dim>
-struct BandCell
+struct TraceCell
 {
   unsigned int active_cell_index;
   dealii::Point<dim> corner;
@@ -45,11 +46,11 @@ struct BandCell
 };
 
 /**
- * The trace finite element space of the surface fields: continuous Q2 on the cells of the active band, that
+ * The trace finite element space of the surface fields: continuous Q2 on the cells of the active mesh, that
  * is those that the membrane cuts now, those that contain points of the earlier membranes, and those in
  * between (design section 2, "Surface fields"; Olshanskii, Reusken, Grande, SINUM 47 (2009)).
  *
- * The values off the membrane are determined by the stabilisation (rho/h) int_band (n.grad f)(n.grad v)
+ * The values off the membrane are determined by the stabilisation (rho/h) int_active (n.grad f)(n.grad v)
  * alone, which extends a field constantly along normals as far as the earlier membranes are (Lehrenfeld,
  * Olshanskii, Xu, SINUM 56 (2018)); it vanishes for v = 1, so that it does not touch the balance of mass.
  */
@@ -66,10 +67,10 @@ public:
   void reinit_mesh();
 
   /**
-   * Finds the band and numbers its unknowns.
+   * Finds the active mesh and numbers its unknowns.
    *
    * @param geometry kept by reference until the next call
-   * @param level_set_dofs, level_set Q3 level set, ghosted, near to a signed distance in the band
+   * @param level_set_dofs, level_set Q3 level set, ghosted, near to a signed distance in it
    * @param clouds earlier membranes (nullptr: none), complete on every rank
    * Throws SimulationError if an earlier membrane reaches out of the mesh. Collective.
    */
@@ -77,9 +78,9 @@ public:
                const Vector &level_set, const std::array<const MembraneCloud<dim> *, 2> &clouds);
 
   const CutGeometry<dim> &geometry() const { return *current_geometry; }
-  const std::vector<BandCell<dim>> &band() const { return cells; }
+  const std::vector<TraceCell<dim>> &active_mesh() const { return cells; }
 
-  /** The unknowns of each cell of the band for one field (rows in lexicographic order). */
+  /** The unknowns of each cell of the active mesh for one field (rows in lexicographic order). */
   const std::vector<CondensedIndices> &elements() const { return cell_elements; }
 
   /** Unknowns of one field, on all ranks. */
@@ -92,11 +93,12 @@ public:
 
 private:
   void locate_clouds(const dealii::DoFHandler<dim> &level_set_dofs, const Vector &level_set,
-                     const std::array<const MembraneCloud<dim> *, 2> &clouds, std::vector<bool> &in_band);
+                     const std::array<const MembraneCloud<dim> *, 2> &clouds,
+                     std::vector<bool> &is_in_active_mesh);
   std::array<double, TensorLagrange<dim, 3>::n> nodal_level_set(unsigned int active_cell_index,
                                                                 const dealii::DoFHandler<dim> &level_set_dofs,
                                                                 const Vector &level_set) const;
-  void compute_normal_derivatives(BandCell<dim> &cell,
+  void compute_normal_derivatives(TraceCell<dim> &cell,
                                   const std::array<double, TensorLagrange<dim, 3>::n> &level_set) const;
 
   const dealii::Triangulation<dim> &triangulation;
@@ -110,14 +112,14 @@ private:
 
   const CutGeometry<dim> *current_geometry = nullptr;
   ActiveDofs<dim> active_dofs;
-  std::vector<BandCell<dim>> cells;
+  std::vector<TraceCell<dim>> cells;
   std::vector<CondensedIndices> cell_elements;
 
   struct Located
   {
     unsigned int active_cell_index;
     unsigned int cloud;
-    typename BandCell<dim>::CloudPoint point;
+    typename TraceCell<dim>::CloudPoint point;
   };
   std::vector<Located> located;
 };

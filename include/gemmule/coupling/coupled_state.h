@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <gemmule/geometry/membrane_snapshot.h>
+#include <gemmule/mesh/mesh_cells.h>
+#include <gemmule/mesh/refinement_criterion.h>
+#include <gemmule/time/time_step_limits.h>
+
+namespace Gemmule
+{
+class ArrayExchange;
+
+/**
+ * Everything that CoupledSystem carries from one accepted step to the next: continuing from it gives what
+ * the run would have given. Independent of the number of ranks and complete on each of them.
+ *
+ * A new member needs a line in exchange() (coupled_state.cc), which both saves and restores it, and in
+ * CoupledSystem::state() and restore().
+ */
+template <int dim>
+struct CoupledState
+{
+  MembraneSnapshot<dim> current, previous;
+  double dt_previous = 0.;  ///< between previous and current
+  double dt_preceding = 0.; ///< the one before
+  double area_0 = 0., arclength_0 = 0.;
+  TimeStepLimits limits;
+  double grid_scale_rigidity = 0.;
+
+  std::vector<MeshCell<dim>> mesh; ///< refinement has hysteresis, so that the membrane does not imply it
+  unsigned int steps_since_remeshing = 0;
+  unsigned int lowered_levels = 0;           ///< by the limit on the number of cells
+  unsigned int n_steps_on_mesh = 0;          ///< accepted ones since the last change of the mesh
+  std::vector<CellSample<dim>> flow_samples; ///< error of the current flow, if a criterion needs it
+  /** Of all cells: far from the membrane the level set stays from the last change of the mesh. */
+  std::vector<LevelSetCell<dim>> level_set;
+  bool level_set_is_set_everywhere = false;
+};
+
+/** Saves or restores all members. */
+template <int dim>
+void exchange(ArrayExchange &archive, CoupledState<dim> &state);
+} // namespace Gemmule

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Saving and restoring what CoupledSystem carries from step to step.
+#include <gemmule/coupling/coupled_system.h>
+
+namespace Gemmule
+{
+template <int dim>
+CoupledState<dim> CoupledSystem<dim>::state() const
+{
+  CoupledState<dim> state;
+  state.current = current;
+  state.previous = previous;
+  state.dt_previous = dt_previous;
+  state.dt_preceding = dt_preceding;
+  state.area_0 = area_0;
+  state.arclength_0 = arclength_0;
+  state.limits = current_limits;
+  state.grid_scale_rigidity = model.bending().grid_scale_rigidity();
+  state.mesh = gather_mesh_cells(triangulation);
+  state.steps_since_remeshing = steps_since_remeshing;
+  state.lowered_levels = adaptation.lowered_levels();
+  state.n_steps_on_mesh = n_steps_on_mesh;
+  state.flow_samples = flow_samples;
+  state.level_set = level_set.gather_cells();
+  state.level_set_is_set_everywhere = level_set.is_set_everywhere();
+  return state;
+}
+
+template <int dim>
+void CoupledSystem<dim>::restore(const CoupledState<dim> &state)
+{
+  refine_to_cells(triangulation, state.mesh);
+  reinit_mesh();
+  level_set.restore(state.level_set, state.level_set_is_set_everywhere);
+  adaptation.set_lowered_levels(state.lowered_levels);
+  steps_since_remeshing = state.steps_since_remeshing;
+  n_steps_on_mesh = state.n_steps_on_mesh;
+  flow_samples = state.flow_samples;
+  current = state.current;
+  previous = state.previous;
+  dt_previous = state.dt_previous;
+  dt_preceding = state.dt_preceding;
+  area_0 = state.area_0;
+  arclength_0 = state.arclength_0;
+  current_limits = state.limits;
+  model.bending().set_grid_scale_rigidity(state.grid_scale_rigidity);
+  last_computed_time = current.time;
+}
+
+template CoupledState<2> CoupledSystem<2>::state() const;
+template CoupledState<3> CoupledSystem<3>::state() const;
+template void CoupledSystem<2>::restore(const CoupledState<2> &);
+template void CoupledSystem<3>::restore(const CoupledState<3> &);
+} // namespace Gemmule
