@@ -3,107 +3,153 @@
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/dofs/dof_tools.h>
+#include <deal.II/lac/la_parallel_vector.h>
 
 #include <algorithm>
-#include <numeric>
 
 namespace Gemmule
 {
 using namespace dealii;
 
-void CondensedIndices::gather(const std::vector<double> &solution, double *local,
-                              const bool homogeneous) const
+namespace
 {
-  for (unsigned int i = 0; i < n_local(); ++i)
-  {
-    double value = homogeneous ? 0. : inhomogeneities[i];
-    for (unsigned int k = row_start[i]; k < row_start[i + 1]; ++k)
-      value += entries[k].second * solution[indices[entries[k].first]];
-    local[i] = value;
-  }
-}
+  using Marks = LinearAlgebra::distributed::Vector<double>;
 
-void CondensedIndices::scatter(const double *local, std::vector<double> &residual) const
-{
-  for (unsigned int i = 0; i < n_local(); ++i)
-    for (unsigned int k = row_start[i]; k < row_start[i + 1]; ++k)
-      residual[indices[entries[k].first]] += entries[k].second * local[i];
-}
+  /** The dofs that this rank may meet: relevant ones, and masters beyond the ghost layer. */
+  template <int dim>
+  IndexSet reachable_dofs(const DoFHandler<dim> &dof_handler, const AffineConstraints<double> &constraints)
+  {
+    IndexSet reach;
+    DoFTools::extract_locally_relevant_dofs(dof_handler, reach);
+    std::vector<types::global_dof_index> masters;
+    for (const auto &line : constraints.get_lines())
+      for (const auto &entry : line.entries)
+        masters.push_back(entry.first);
+    std::sort(masters.begin(), masters.end());
+    masters.erase(std::unique(masters.begin(), masters.end()), masters.end());
+    reach.add_indices(masters.begin(), masters.end());
+    reach.compress();
+    return reach;
+  }
+
+  /** Counts instead of flags: compress(add) sums the marks of the ranks, anything positive is active. */
+  template <int dim>
+  Marks mark_active_dofs(const DoFHandler<dim> &dof_handler, const AffineConstraints<double> &constraints,
+                         const std::vector<bool> &cell_is_active)
+  {
+    Marks marks(dof_handler.locally_owned_dofs(), reachable_dofs(dof_handler, constraints),
+                dof_handler.get_communicator());
+    std::vector<types::global_dof_index> dofs(dof_handler.get_fe().n_dofs_per_cell());
+    for (const auto &cell : dof_handler.active_cell_iterators())
+      if (cell->is_locally_owned() && cell_is_active[cell->active_cell_index()])
+      {
+        cell->get_dof_indices(dofs);
+        for (const auto dof : dofs)
+          marks(dof) = 1.;
+      }
+    marks.compress(VectorOperation::add);
+    marks.update_ghost_values();
+    return marks;
+  }
+
+  /** Adds the masters of constrained dofs, and theirs. */
+  void close_under_constraints(const AffineConstraints<double> &constraints, Marks &marks)
+  {
+    const MPI_Comm communicator = marks.get_mpi_communicator();
+    for (bool grown = true; grown;)
+    {
+      Marks additions(marks.get_partitioner());
+      unsigned int n_additions = 0;
+      for (const auto &line : constraints.get_lines())
+        if (marks(line.index) > 0.)
+          for (const auto &entry : line.entries)
+            if (marks(entry.first) == 0.)
+            {
+              additions(entry.first) = 1.;
+              ++n_additions;
+            }
+      grown = Utilities::MPI::max(n_additions, communicator) > 0;
+      if (grown)
+      {
+        additions.compress(VectorOperation::add);
+        marks.zero_out_ghost_values();
+        marks += additions;
+        marks.update_ghost_values();
+      }
+    }
+  }
+
+  /** By owned dof, in their order. */
+  template <int dim>
+  std::vector<unsigned int> parts_of_owned_dofs(const DoFHandler<dim> &dof_handler,
+                                                const std::vector<unsigned int> &part_of_component)
+  {
+    const IndexSet &owned = dof_handler.locally_owned_dofs();
+    std::vector<unsigned int> parts(owned.n_elements(), 0);
+    if (part_of_component.empty())
+      return parts;
+    for (unsigned int c = 0; c < part_of_component.size(); ++c)
+      if (part_of_component[c] > 0)
+      {
+        ComponentMask mask(part_of_component.size(), false);
+        mask.set(c, true);
+        for (const auto dof : DoFTools::extract_dofs(dof_handler, mask))
+          parts[owned.index_within_set(dof)] = part_of_component[c];
+      }
+    return parts;
+  }
+} // namespace
 
 template <int dim>
 void ActiveDofs<dim>::reinit(const DoFHandler<dim> &dof_handler,
                              const AffineConstraints<double> &constraints_,
-                             const std::vector<bool> &cell_is_active, const unsigned int first_number)
+                             const std::vector<bool> &cell_is_active,
+                             const std::vector<unsigned int> &part_of_component)
 {
   constraints = &constraints_;
-  first = first_number;
-  const MPI_Comm communicator = dof_handler.get_communicator();
+  Marks marks = mark_active_dofs(dof_handler, *constraints, cell_is_active);
+  close_under_constraints(*constraints, marks);
+  layout = marks.get_partitioner();
+
+  const auto parts = parts_of_owned_dofs(dof_handler, part_of_component);
   const IndexSet &owned = dof_handler.locally_owned_dofs();
-  IndexSet relevant;
-  DoFTools::extract_locally_relevant_dofs(dof_handler, relevant);
-  // A constraint of a relevant dof may lead to a master beyond the ghost layer.
-  IndexSet reach = relevant;
-  std::vector<types::global_dof_index> masters;
-  for (const auto &line : constraints->get_lines())
-    for (const auto &entry : line.entries)
-      masters.push_back(entry.first);
-  std::sort(masters.begin(), masters.end());
-  masters.erase(std::unique(masters.begin(), masters.end()), masters.end());
-  reach.add_indices(masters.begin(), masters.end());
-  reach.compress();
-
-  // Counts instead of flags: compress(add) sums the marks of the ranks, anything positive is active.
-  Vector marks(owned, reach, communicator);
-  std::vector<types::global_dof_index> dofs(dof_handler.get_fe().n_dofs_per_cell());
-  for (const auto &cell : dof_handler.active_cell_iterators())
-    if (cell->is_locally_owned() && cell_is_active[cell->active_cell_index()])
-    {
-      cell->get_dof_indices(dofs);
-      for (const auto dof : dofs)
-        marks(dof) = 1.;
-    }
-  marks.compress(VectorOperation::add);
-  marks.update_ghost_values();
-
-  bool grown = true;
-  while (grown)
+  std::vector<bool> is_unknown(parts.size());
+  std::vector<Index> n_owned(part_of_component.empty()
+                                 ? 1
+                                 : 1 + *std::max_element(part_of_component.begin(), part_of_component.end()),
+                             0);
+  for (unsigned int i = 0; i < parts.size(); ++i)
   {
-    Vector additions(owned, reach, communicator);
-    unsigned int n_additions = 0;
-    for (const auto &line : constraints->get_lines())
-      if (marks(line.index) > 0.)
-        for (const auto &entry : line.entries)
-          if (marks(entry.first) == 0.)
-          {
-            additions(entry.first) = 1.;
-            ++n_additions;
-          }
-    grown = Utilities::MPI::max(n_additions, communicator) > 0;
-    if (grown)
-    {
-      additions.compress(VectorOperation::add);
-      marks.zero_out_ghost_values();
-      marks += additions;
-      marks.update_ghost_values();
-    }
+    is_unknown[i] = marks.local_element(i) > 0. && !constraints->is_constrained(owned.nth_index_in_set(i));
+    if (is_unknown[i])
+      ++n_owned[parts[i]];
   }
+  unknowns = UnknownPartition(n_owned, dof_handler.get_communicator());
 
-  unsigned int n_mine = 0;
-  for (const auto dof : owned)
-    if (marks(dof) > 0. && !constraints->is_constrained(dof))
-      ++n_mine;
-  unsigned int offset = 0;
-  MPI_Exscan(&n_mine, &offset, 1, MPI_UNSIGNED, MPI_SUM, communicator);
-  if (Utilities::MPI::this_mpi_process(communicator) == 0)
-    offset = 0;
-  n_unknowns = Utilities::MPI::sum(n_mine, communicator);
+  const unsigned int rank = Utilities::MPI::this_mpi_process(dof_handler.get_communicator());
+  std::vector<Index> next;
+  for (unsigned int part = 0; part < n_owned.size(); ++part)
+    next.push_back(unknowns.first(rank, part));
+  numbers.assign(parts.size() + layout->n_ghost_indices(), dealii::numbers::invalid_dof_index);
+  for (unsigned int i = 0; i < parts.size(); ++i)
+    if (is_unknown[i])
+      numbers[i] = next[parts[i]]++;
 
-  numbers.reinit(owned, reach, communicator);
-  unsigned int next = first + offset;
-  for (const auto dof : owned)
-    numbers(dof) = marks(dof) > 0. && !constraints->is_constrained(dof) ? static_cast<double>(next++) : -1.;
-  numbers.update_ghost_values();
-  active.swap(marks);
+  std::vector<Index> to_send(layout->n_import_indices());
+  std::vector<MPI_Request> requests;
+  const ArrayView<Index> ghosts(numbers.data() + parts.size(), layout->n_ghost_indices());
+  layout->export_to_ghosted_array_start<Index, MemorySpace::Host>(
+      0, ArrayView<const Index>(numbers.data(), parts.size()),
+      ArrayView<Index>(to_send.data(), to_send.size()), ghosts, requests);
+  layout->export_to_ghosted_array_finish<Index, MemorySpace::Host>(ghosts, requests);
+}
+
+template <int dim>
+void ActiveDofs<dim>::renumber(const BlockNumbering &numbering, const unsigned int field)
+{
+  for (auto &number : numbers)
+    if (number != dealii::numbers::invalid_dof_index)
+      number = numbering.number(field, number);
 }
 
 template <int dim>
@@ -112,8 +158,9 @@ void ActiveDofs<dim>::append(const std::vector<types::global_dof_index> &dofs,
 {
   const auto add_entry = [&](const types::global_dof_index dof, const double weight)
   {
-    const int number_of_dof = number(dof);
-    AssertThrow(number_of_dof >= 0, ExcMessage("An element uses a dof that is not active."));
+    const Index number_of_dof = number(dof);
+    AssertThrow(number_of_dof != dealii::numbers::invalid_dof_index,
+                ExcMessage("An element uses a dof that is not active."));
     element.entries.emplace_back(element.indices.size(), weight);
     element.indices.push_back(number_of_dof);
   };
@@ -132,18 +179,6 @@ void ActiveDofs<dim>::append(const std::vector<types::global_dof_index> &dofs,
     element.row_start.push_back(element.entries.size());
     element.inhomogeneities.push_back(inhomogeneity);
   }
-}
-
-template <int dim>
-void ActiveDofs<dim>::finish(CondensedIndices &element)
-{
-  std::vector<unsigned int> unique = element.indices;
-  std::sort(unique.begin(), unique.end());
-  unique.erase(std::unique(unique.begin(), unique.end()), unique.end());
-  for (auto &entry : element.entries)
-    entry.first =
-        std::lower_bound(unique.begin(), unique.end(), element.indices[entry.first]) - unique.begin();
-  element.indices.swap(unique);
 }
 
 template class ActiveDofs<2>;

@@ -5,12 +5,17 @@
 
 #include <deal.II/base/exceptions.h>
 #include <deal.II/base/mpi.h>
+#include <deal.II/base/mpi_noncontiguous_partitioner.h>
 
 #include <dmumps_c.h>
 #include <exception>
+#include <limits>
+#include <string>
 
 namespace Gemmule
 {
+using namespace dealii;
+
 namespace
 {
   // MUMPS' documentation counts its control parameters from one.
@@ -24,9 +29,19 @@ struct MumpsSolver::Instance
   MPI_Comm communicator;
   std::vector<int> rows, columns;
   std::vector<double> values;
+  unsigned int pattern_version = 0; ///< of the matrix that has been analysed; 0: none
+
+  // MUMPS leaves each part of the solution where the last pivots of it were, and tells where that is.
+  std::vector<int> right_side_rows, solution_rows;
+  std::vector<double> right_side_values, solution_values;
+  /** From there to the owners; found anew after each factorisation. nullptr on a single rank. */
+  std::unique_ptr<Utilities::MPI::NoncontiguousPartitioner> to_owners;
+  bool solution_is_located = false;
 
   int &icntl(const int i) { return mumps.icntl[i - 1]; }
   int infog(const int i) const { return mumps.infog[i - 1]; }
+
+  void locate_solution(const IndexSet &owned);
 
   void run(const int job)
   {
@@ -71,6 +86,8 @@ MumpsSolver::MumpsSolver(const MPI_Comm communicator, const bool symmetric) : in
   instance->icntl(7) = 0;        // approximate minimum degree
   instance->icntl(18) = 3;       // distributed entries, positions given by the user
   instance->icntl(14) = 60;      // percent of extra workspace, for delayed pivots of the indefinite matrix
+  instance->icntl(20) = 10;      // right sides are distributed
+  instance->icntl(21) = 1;       // and so are solutions
 }
 
 MumpsSolver::~MumpsSolver()
@@ -82,22 +99,44 @@ MumpsSolver::~MumpsSolver()
   instance->run(job_terminate);
 }
 
-void MumpsSolver::analyse(const unsigned int n, const std::vector<unsigned int> &rows,
-                          const std::vector<unsigned int> &columns)
+void MumpsSolver::prepare(const SubassembledMatrix &matrix, const BlockNumbering &numbering)
 {
-  AssertDimension(rows.size(), columns.size());
-  auto &m = instance->mumps;
-  instance->rows.resize(rows.size());
-  instance->columns.resize(rows.size());
-  for (std::size_t k = 0; k < rows.size(); ++k)
+  if (instance->pattern_version != matrix.pattern_version())
   {
-    instance->rows[k] = rows[k] + 1;
-    instance->columns[k] = columns[k] + 1;
+    analyse(matrix, numbering.size());
+    instance->pattern_version = matrix.pattern_version();
   }
-  m.n = n;
-  m.nnz_loc = rows.size();
+  factorise(matrix.entry_values());
+}
+
+void MumpsSolver::analyse(const SubassembledMatrix &matrix, const unsigned long long n)
+{
+  AssertThrow(n < static_cast<unsigned long long>(std::numeric_limits<int>::max()),
+              ExcMessage("MUMPS counts unknowns in integers of 32 bits."));
+  auto &m = instance->mumps;
+  const auto &partitioner = *matrix.partitioner();
+  const auto number = [&partitioner](const unsigned int local)
+  { return static_cast<int>(partitioner.local_to_global(local)) + 1; };
+
+  instance->rows.resize(matrix.n_entries());
+  instance->columns.resize(matrix.n_entries());
+  for (unsigned int row = 0; row < matrix.n_rows(); ++row)
+  {
+    const int row_number = number(row);
+    for (std::size_t k = matrix.row_begin(row); k < matrix.row_begin(row + 1); ++k)
+    {
+      instance->rows[k] = row_number;
+      instance->columns[k] = number(matrix.column(k));
+    }
+  }
+  m.n = static_cast<int>(n);
+  m.nnz_loc = matrix.n_entries();
   m.irn_loc = instance->rows.data();
   m.jcn_loc = instance->columns.data();
+
+  instance->right_side_rows.resize(partitioner.locally_owned_size());
+  for (unsigned int i = 0; i < instance->right_side_rows.size(); ++i)
+    instance->right_side_rows[i] = number(i);
   instance->run(job_analyse);
   instance->check("analysis");
 }
@@ -107,6 +146,7 @@ void MumpsSolver::factorise(const std::vector<double> &values)
   AssertDimension(values.size(), instance->rows.size());
   instance->values = values;
   instance->mumps.a_loc = instance->values.data();
+  instance->solution_is_located = false;
   const int default_extra_workspace = 60, largest_extra_workspace = 2000;
   instance->icntl(14) = default_extra_workspace;
   while (true)
@@ -121,15 +161,57 @@ void MumpsSolver::factorise(const std::vector<double> &values)
   instance->check("factorisation");
 }
 
-void MumpsSolver::solve(std::vector<double> &rhs, const unsigned int n_rhs)
+void MumpsSolver::Instance::locate_solution(const IndexSet &owned)
+{
+  to_owners.reset();
+  if (Utilities::MPI::n_mpi_processes(communicator) > 1)
+  {
+    std::vector<types::global_dof_index> has, wants;
+    for (const int row : solution_rows)
+      has.push_back(row - 1);
+    for (const auto index : owned)
+      wants.push_back(index);
+    to_owners = std::make_unique<Utilities::MPI::NoncontiguousPartitioner>(has, wants, communicator);
+  }
+  solution_is_located = true;
+}
+
+void MumpsSolver::solve(const std::vector<Vector> &right_sides, std::vector<Vector> &solutions)
 {
   auto &m = instance->mumps;
-  if (dealii::Utilities::MPI::this_mpi_process(instance->communicator) == 0)
-    AssertDimension(rhs.size(), static_cast<std::size_t>(m.n) * n_rhs);
-  m.rhs = rhs.data();
+  const unsigned int n_rhs = right_sides.size(), n_owned = instance->right_side_rows.size();
+  instance->right_side_values.resize(static_cast<std::size_t>(n_rhs) * n_owned);
+  for (unsigned int c = 0; c < n_rhs; ++c)
+  {
+    AssertDimension(right_sides[c].locally_owned_size(), n_owned);
+    std::copy_n(right_sides[c].begin(), n_owned, instance->right_side_values.begin() + c * n_owned);
+  }
   m.nrhs = n_rhs;
-  m.lrhs = m.n;
+  m.nloc_rhs = m.lrhs_loc = n_owned;
+  m.irhs_loc = instance->right_side_rows.data();
+  m.rhs_loc = instance->right_side_values.data();
+
+  const unsigned int n_here = m.info[23 - 1];
+  instance->solution_rows.resize(n_here);
+  instance->solution_values.resize(static_cast<std::size_t>(n_rhs) * n_here);
+  m.lsol_loc = n_here;
+  m.isol_loc = instance->solution_rows.data();
+  m.sol_loc = instance->solution_values.data();
   instance->run(job_solve);
   instance->check("solution");
+
+  const IndexSet &owned = right_sides[0].locally_owned_elements();
+  if (!instance->solution_is_located)
+    instance->locate_solution(owned);
+  for (unsigned int c = 0; c < n_rhs; ++c)
+  {
+    const double *const here = instance->solution_values.data() + static_cast<std::size_t>(c) * n_here;
+    if (instance->to_owners != nullptr)
+      instance->to_owners->export_to_ghosted_array<double>(ArrayView<const double>(here, n_here),
+                                                           ArrayView<double>(solutions[c].begin(), n_owned));
+    else
+      for (unsigned int i = 0; i < n_here; ++i)
+        solutions[c].local_element(instance->solution_rows[i] - 1) = here[i];
+  }
 }
 } // namespace Gemmule

@@ -35,6 +35,7 @@ namespace
     const auto *const surface = system.get_surface();
     const auto &cut_cells = system.get_geometry().cut_cells();
     const double threshold = smallest_weight * system.get_geometry().measure();
+    const MembranePointValues tension = system.get_membrane_flow().tension();
     std::vector<PlainSample<dim>> samples;
     for (unsigned int c = 0; c < cut_cells.size(); ++c)
     {
@@ -59,7 +60,7 @@ namespace
           s.f_total = Q2::value(surface->total_concentration()[c], unit);
           s.chemical_potential = Q2::value(surface->chemical_potential()[c], unit);
         }
-        s.tension = system.tension()[c][q];
+        s.tension = tension[c][q];
         s.weight = cell.surface_weights[q];
         if (const auto *const bending = system.get_bending())
           s.curvature = bending->curvature()[c][q];
@@ -196,9 +197,7 @@ StatisticsRow make_statistics(const CoupledSystem<dim> &system, const InterfaceS
     row.f_total_shift = surface->last_mass_shift();
   }
   else
-    for (unsigned int i = 0; i < membrane.points.size(); ++i)
-      // the tension of the arclength constraint has its own energy, or none
-      row.energy_surface += (membrane.tension[i] - flow.constraint_tension()) * membrane.weights[i];
+    row.energy_surface = system.get_membrane_flow().tension_energy(system.get_geometry());
   const auto &arclength = system.get_parameters().arclength;
   if (arclength.model == Parameters::ArclengthModel::penalty)
     row.energy_constraint =

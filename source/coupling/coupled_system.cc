@@ -151,7 +151,7 @@ CoupledSystem<dim>::take_snapshot(const double time,
     fields[c].displacement = transported[c].displacement;
     fields[c].previous_velocity = transported[c].previous_velocity;
     if (has_arclength_multiplier())
-      fields[c].tension_velocity = raise_degree<dim>(get_flow().tension_velocity()[c].nodal);
+      fields[c].tension_velocity = raise_degree<dim>(membrane_flow.tension_velocity()[c].nodal);
     if (surface)
     {
       fields[c].concentration = raise_degree<dim>(surface->concentration()[c]);

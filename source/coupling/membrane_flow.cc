@@ -3,6 +3,8 @@
 #include <gemmule/coupling/membrane_flow.h>
 #include <gemmule/flow/bending_force.h>
 #include <gemmule/flow/semi_implicit_bending.h>
+#include <gemmule/flow/semi_implicit_tension.h>
+#include <gemmule/flow/tension_force.h>
 #include <gemmule/parameters/expression.h>
 
 #include <deal.II/base/mpi.h>
@@ -41,27 +43,27 @@ MembranePointValues MembraneFlow<dim>::tension_of(const Membrane &membrane, cons
     return membrane.surface->tension(membrane.bending != nullptr ? &membrane.bending->curvature() : nullptr);
 
   prescribed_tension->set_time(time);
-  MembranePointValues sigma;
+  MembranePointValues prescribed;
   std::string complaint;
   for (const auto &cell : membrane.geometry.cut_cells())
   {
-    sigma.emplace_back();
+    prescribed.emplace_back();
     for (const auto &unit_point : cell.surface_points)
     {
       const Point<dim> point = cell.physical(unit_point);
-      sigma.back().push_back(prescribed_tension->value(point));
-      if (!std::isfinite(sigma.back().back()) && complaint.empty())
+      prescribed.back().push_back(prescribed_tension->value(point));
+      if (!std::isfinite(prescribed.back().back()) && complaint.empty())
         complaint = not_finite_complaint<dim>(*prescribed_tension, {point});
     }
   }
   raise_together("Membrane/Prescribed tension", complaint, communicator);
-  return sigma;
+  return prescribed;
 }
 
 template <int dim>
 MembranePointValues MembraneFlow<dim>::stiff_tension(const MembraneBending<dim> *const bending) const
 {
-  MembranePointValues stiff = total_tension;
+  MembranePointValues stiff = sigma;
   if (bending == nullptr)
     return stiff;
   const MembranePointValues tension_of_bending = bending->tension();
@@ -84,70 +86,99 @@ MembranePointValues MembraneFlow<dim>::dilatational_modulus(const Membrane &memb
 }
 
 template <int dim>
+void MembraneFlow<dim>::add_semi_implicit_terms(const Membrane &membrane, const double dt,
+                                                const CutCellVector<dim> &old_velocity, Terms &terms) const
+{
+  const double coefficient = parameters.time_stepping.tension_implicitness * dt;
+  if (coefficient == 0.)
+    return;
+  const double capillary_number = parameters.fluid.capillary_number;
+  terms.push_back(std::make_shared<SemiImplicitTension<dim>>(
+      typename SemiImplicitTension<dim>::Parameters{coefficient, stiff_tension(membrane.bending),
+                                                    dilatational_modulus(membrane), old_velocity},
+      capillary_number));
+  if (membrane.bending != nullptr)
+    terms.push_back(std::make_shared<SemiImplicitBending<dim>>(
+        bending_stiffness_margin * coefficient * model.bending().largest_rigidity(),
+        membrane.bending->shared_trace_space(), old_velocity, capillary_number));
+}
+
+template <int dim>
+std::shared_ptr<ArclengthConstraint<dim>> MembraneFlow<dim>::make_constraint(const Membrane &membrane,
+                                                                             const double dt) const
+{
+  const double capillary_number = parameters.fluid.capillary_number;
+  const auto &arclength = parameters.arclength;
+  if (arclength.model == Parameters::ArclengthModel::multiplier)
+    // It holds dL/dt = 0; what a step changes nevertheless, the motion of the next one corrects.
+    return std::make_shared<ArclengthConstraint<dim>>(
+        typename ArclengthConstraint<dim>::Penalty{std::numeric_limits<double>::infinity(), 0., 1.},
+        capillary_number);
+  if (arclength.model == Parameters::ArclengthModel::penalty && arclength.penalty > 0.)
+    return std::make_shared<ArclengthConstraint<dim>>(
+        typename ArclengthConstraint<dim>::Penalty{
+            arclength.penalty, membrane.geometry.measure() - membrane.reference_arclength, dt},
+        capillary_number);
+  return nullptr;
+}
+
+template <int dim>
 void MembraneFlow<dim>::solve(const double time, const double dt, const Membrane &membrane,
                               const CutCellVector<dim> *const old_velocity, TimerOutput &timer)
 {
-  total_tension = tension_of(membrane, time);
+  constraint.reset(); // should this fail: that of an earlier flow has no meaning
+  sigma = tension_of(membrane, time);
   boundary_velocity->set_time(time);
-  std::unique_ptr<BendingForce<dim>> bending_force;
+  Terms terms{std::make_shared<TensionForce<dim>>(sigma, parameters.fluid.capillary_number)};
   if (membrane.bending != nullptr)
   {
     const auto *const surface = membrane.surface;
     membrane.bending->compute_moment(surface != nullptr ? &surface->concentration() : nullptr,
                                      surface != nullptr ? &surface->total_concentration() : nullptr);
-    bending_force = std::make_unique<BendingForce<dim>>(*membrane.bending, membrane.geometry);
+    terms.push_back(
+        std::make_shared<BendingForce<dim>>(*membrane.bending, parameters.fluid.capillary_number));
   }
-
-  const MembranePointValues stiff = stiff_tension(membrane.bending), modulus = dilatational_modulus(membrane);
-  const SemiImplicitTension<dim> semi_implicit{parameters.time_stepping.tension_implicitness * dt, &stiff,
-                                               membrane.surface != nullptr ? &modulus : nullptr,
-                                               old_velocity};
-  SemiImplicitBending<dim> semi_implicit_bending;
-  if (membrane.bending != nullptr)
-  {
-    semi_implicit_bending.coefficient =
-        bending_stiffness_margin * semi_implicit.coefficient * model.bending().largest_rigidity();
-    semi_implicit_bending.space = &membrane.bending->trace_space();
-    semi_implicit_bending.old_velocity = old_velocity;
-  }
-  const bool is_semi_implicit = old_velocity != nullptr && semi_implicit.coefficient > 0.;
+  if (old_velocity != nullptr)
+    add_semi_implicit_terms(membrane, dt, *old_velocity, terms);
+  const auto new_constraint = make_constraint(membrane, dt);
+  if (new_constraint != nullptr)
+    terms.push_back(new_constraint);
   {
     TimerOutput::Scope scope(timer, "flow: assembly and factorisation");
-    stokes.prepare(membrane.geometry, *boundary_velocity, is_semi_implicit ? &semi_implicit : nullptr,
-                   is_semi_implicit && membrane.bending != nullptr ? &semi_implicit_bending : nullptr);
+    stokes.prepare(membrane.geometry, *boundary_velocity, terms);
   }
   TimerOutput::Scope scope(timer, "flow: solution");
-  solve_with_constraint(membrane, dt, bending_force.get());
+  stokes.solve();
+  constraint = new_constraint;
 }
 
 template <int dim>
-void MembraneFlow<dim>::solve_with_constraint(const Membrane &membrane, const double dt,
-                                              const BendingForce<dim> *const bending_force)
+MembranePointValues MembraneFlow<dim>::tension() const
 {
-  if (parameters.arclength.model == Parameters::ArclengthModel::none)
-  {
-    stokes.solve(total_tension, nullptr, bending_force);
-    return;
-  }
-  // The multiplier holds dL/dt = 0; what a step changes nevertheless, the motion of the next one corrects.
-  const ArclengthPenalty penalty =
-      parameters.arclength.model == Parameters::ArclengthModel::multiplier
-          ? ArclengthPenalty{std::numeric_limits<double>::infinity(), 0., 1.}
-          : ArclengthPenalty{parameters.arclength.penalty,
-                             membrane.geometry.measure() - membrane.reference_arclength, dt};
-  stokes.solve(total_tension, &penalty, bending_force);
-  for (auto &cell : total_tension)
-    for (double &sigma : cell)
-      sigma += stokes.constraint_tension();
+  MembranePointValues total = sigma;
+  for (auto &cell : total)
+    for (double &value : cell)
+      value += constraint_tension();
+  return total;
+}
+
+template <int dim>
+double MembraneFlow<dim>::tension_energy(const CutGeometry<dim> &geometry) const
+{
+  double energy = 0.;
+  for (unsigned int c = 0; c < sigma.size(); ++c)
+    for (unsigned int q = 0; q < sigma[c].size(); ++q)
+      energy += geometry.cut_cells()[c].surface_weights[q] * sigma[c][q];
+  return Utilities::MPI::sum(energy, communicator);
 }
 
 template <int dim>
 double MembraneFlow<dim>::smallest_tension() const
 {
   double smallest = std::numeric_limits<double>::max();
-  for (const auto &cell : total_tension)
-    for (const double sigma : cell)
-      smallest = std::min(smallest, sigma);
+  for (const auto &cell : sigma)
+    for (const double value : cell)
+      smallest = std::min(smallest, value + constraint_tension());
   return Utilities::MPI::min(smallest, communicator);
 }
 
@@ -159,8 +190,8 @@ TimeStepLimits MembraneFlow<dim>::time_step_limits(const CutGeometry<dim> &geome
   for (unsigned int c = 0; c < geometry.cut_cells().size(); ++c)
   {
     const CutCell<dim> &cell = geometry.cut_cells()[c];
-    for (const double sigma : total_tension[c])
-      capillary = std::min(capillary, cell.size / std::max(std::abs(sigma), tiny));
+    for (const double value : sigma[c])
+      capillary = std::min(capillary, cell.size / std::max(std::abs(value + constraint_tension()), tiny));
     for (unsigned int q = 0; q < cell.surface_points.size(); ++q)
     {
       const double speed = stokes.membrane_velocity()[c].value(cell.surface_points[q]) * cell.normals[q];

@@ -33,62 +33,54 @@ namespace
 } // namespace
 
 template <int dim>
-BendingForce<dim>::BendingForce(const MembraneBending<dim> &bending, const CutGeometry<dim> &geometry)
-    : bending(bending), geometry(geometry)
+BendingForce<dim>::BendingForce(const MembraneBending<dim> &bending, const double capillary_number)
+    : moment(bending.moment()), curvature(bending.curvature()), moment_at_points(bending.moment_at_points()),
+      energy_density(bending.energy_density()), capillary_number(capillary_number)
 {
 }
 
 template <int dim>
-std::array<Tensor<1, dim>, BendingForce<dim>::nv>
-BendingForce<dim>::variation(const MembraneForce<dim> &force, const unsigned int k) const
+typename BendingForce<dim>::NodalForce
+BendingForce<dim>::variation(const InterfaceVelocity<dim> &interface_velocity, const unsigned int k) const
 {
-  const CutCell<dim> &cell = geometry.cut_cells()[k];
-  std::array<Tensor<1, dim>, nv> result{};
+  const CutCell<dim> &cell = interface_velocity.geometry().cut_cells()[k];
+  NodalForce result{};
   SurfacePoint<dim> point;
   for (unsigned int q = 0; q < cell.surface_points.size(); ++q)
   {
     point.reinit(cell, q);
-    const Tensor<1, dim> slope = cell.surface_weights[q] * point.surface_gradient(bending.moment()[k]);
+    const Tensor<1, dim> slope = cell.surface_weights[q] * point.surface_gradient(moment[k]);
     const SymmetricTensor<2, dim> stress =
-        cell.surface_weights[q] * tangential_stress(cell, q, bending.curvature()[k][q],
-                                                    bending.moment_at_points()[k][q],
-                                                    bending.energy_density()[k][q]);
-    const auto &gradients = force.tangential_gradient(k, q);
-    for (unsigned int i = 0; i < nv; ++i)
+        cell.surface_weights[q] *
+        tangential_stress(cell, q, curvature[k][q], moment_at_points[k][q], energy_density[k][q]);
+    const auto &gradients = interface_velocity.tangential_gradient(k, q);
+    for (unsigned int i = 0; i < result.size(); ++i)
       result[i] += (slope * gradients[i]) * cell.normals[q] + stress * gradients[i];
   }
   return result;
 }
 
 template <int dim>
-void BendingForce<dim>::add_rhs(const MembraneForce<dim> &force, const double capillary_number,
-                                const FluidPair &fluids,
-                                const std::vector<StokesCellElement> &cut_cell_elements,
-                                const ElementSystem &system, std::vector<double> &rhs) const
+void BendingForce<dim>::add_right_side(const FlowTermContext<dim> &context, Vector &right_side) const
 {
-  using Layout = StokesLayout<dim>;
-  std::array<double, 2 * Layout::n> local;
-  for (unsigned int k = 0; k < cut_cell_elements.size(); ++k)
+  for (unsigned int k = 0; k < moment.size(); ++k)
   {
-    const auto derivative = variation(force, k);
-    local.fill(0.);
-    for (unsigned int fluid = 0; fluid < 2; ++fluid)
-      for (unsigned int c = 0; c < dim; ++c)
-        for (unsigned int i = 0; i < nv; ++i)
-          local[fluid * Layout::n + Layout::velocity(c, i)] =
-              -fluids.velocity_weight[fluid] / capillary_number * derivative[i][c];
-    system.add_rhs(cut_cell_elements[k].element, local.data(), rhs);
+    NodalForce force = variation(context.interface_velocity, k);
+    for (auto &nodal : force)
+      nodal *= -1. / capillary_number;
+    context.interface_velocity.scatter(k, force, context.system, right_side);
   }
 }
 
 template <int dim>
-double BendingForce<dim>::power(const MembraneForce<dim> &force, const Velocity &velocity) const
+double BendingForce<dim>::power(const InterfaceVelocity<dim> &interface_velocity,
+                                const Velocity &velocity) const
 {
   double sum = 0.;
   for (unsigned int k = 0; k < velocity.size(); ++k)
   {
-    const auto derivative = variation(force, k);
-    for (unsigned int i = 0; i < nv; ++i)
+    const auto derivative = variation(interface_velocity, k);
+    for (unsigned int i = 0; i < derivative.size(); ++i)
       sum += derivative[i] * velocity[k].nodal[i];
   }
   return sum;

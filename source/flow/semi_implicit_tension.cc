@@ -8,99 +8,75 @@ namespace Gemmule
 using namespace dealii;
 
 template <int dim>
-void SemiImplicitTension<dim>::add_matrix(const CutGeometry<dim> &geometry, const MembraneForce<dim> &force,
-                                          const double capillary_number, const FluidPair &fluids,
-                                          const std::vector<StokesCellElement> &cut_cell_elements,
-                                          ElementSystem &system, std::vector<double> &rhs) const
+std::pair<double, double> SemiImplicitTension<dim>::weights(const CutCell<dim> &cell, const unsigned int k,
+                                                            const unsigned int q) const
 {
-  using Layout = StokesLayout<dim>;
-  constexpr unsigned int nv = Layout::n_velocity_nodes;
-  const auto &cells = geometry.cut_cells();
-  FullMatrix<double> local(2 * Layout::n, 2 * Layout::n);
+  const double weight = parameters.coefficient / capillary_number * cell.surface_weights[q];
+  return {weight * std::max(parameters.tension[k][q], 0.),
+          parameters.dilatational_modulus.empty() ? 0. : weight * parameters.dilatational_modulus[k][q]};
+}
+
+template <int dim>
+void SemiImplicitTension<dim>::add_matrix(const FlowTermContext<dim> &context, Vector &right_side) const
+{
+  const auto &interface_velocity = context.interface_velocity;
+  const auto &cells = interface_velocity.geometry().cut_cells();
+  constexpr unsigned int n_nodes = InterfaceVelocity<dim>::n_nodes;
   for (unsigned int k = 0; k < cells.size(); ++k)
   {
     // [i][j][c][d]: int sigma n_c n_d grad_s phi_i . grad_s phi_j + E (grad_s phi_i)_c (grad_s phi_j)_d
-    std::array<std::array<Tensor<2, dim>, nv>, nv> stiffness{};
+    typename InterfaceVelocity<dim>::NodalMatrix stiffness{};
     for (unsigned int q = 0; q < cells[k].surface_weights.size(); ++q)
     {
-      const double weight =
-          coefficient / capillary_number * cells[k].surface_weights[q] * std::max((*tension)[k][q], 0.);
-      const double dilatational_weight =
-          dilatational_modulus != nullptr
-              ? coefficient / capillary_number * cells[k].surface_weights[q] * (*dilatational_modulus)[k][q]
-              : 0.;
+      const auto [weight, dilatational_weight] = weights(cells[k], k, q);
       const Tensor<2, dim> nn = outer_product(cells[k].normals[q], cells[k].normals[q]);
-      const auto &gradients = force.tangential_gradient(k, q);
-      for (unsigned int i = 0; i < nv; ++i)
+      const auto &gradients = interface_velocity.tangential_gradient(k, q);
+      for (unsigned int i = 0; i < n_nodes; ++i)
         for (unsigned int j = 0; j <= i; ++j)
           stiffness[i][j] += (weight * (gradients[i] * gradients[j])) * nn +
                              dilatational_weight * outer_product(gradients[i], gradients[j]);
     }
-    for (unsigned int i = 0; i < nv; ++i)
-      for (unsigned int j = 0; j < nv; ++j)
-      {
-        const Tensor<2, dim> block = j <= i ? stiffness[i][j] : transpose(stiffness[j][i]);
-        for (unsigned int f = 0; f < 2; ++f)
-          for (unsigned int g = 0; g < 2; ++g)
-            for (unsigned int c = 0; c < dim; ++c)
-              for (unsigned int d = 0; d < dim; ++d)
-                local(f * Layout::n + Layout::velocity(c, i), g * Layout::n + Layout::velocity(d, j)) =
-                    fluids.velocity_weight[f] * fluids.velocity_weight[g] * block[c][d];
-      }
-    system.add_matrix(cut_cell_elements[k].element, local);
-    system.add_inhomogeneity(cut_cell_elements[k].element, local, rhs);
+    for (unsigned int i = 0; i < n_nodes; ++i)
+      for (unsigned int j = i + 1; j < n_nodes; ++j)
+        stiffness[i][j] = transpose(stiffness[j][i]);
+    interface_velocity.add_matrix(k, stiffness, context.system, right_side);
   }
 }
 
 template <int dim>
-void SemiImplicitTension<dim>::add_rhs(const CutGeometry<dim> &geometry, const MembraneForce<dim> &force,
-                                       const double capillary_number, const FluidPair &fluids,
-                                       const std::vector<StokesCellElement> &cut_cell_elements,
-                                       const ElementSystem &system, std::vector<double> &rhs) const
+void SemiImplicitTension<dim>::add_right_side(const FlowTermContext<dim> &context, Vector &right_side) const
 {
-  using Layout = StokesLayout<dim>;
-  constexpr unsigned int nv = Layout::n_velocity_nodes;
-  const auto &cells = geometry.cut_cells();
-  std::array<double, 2 * Layout::n> local;
+  const auto &interface_velocity = context.interface_velocity;
+  const auto &cells = interface_velocity.geometry().cut_cells();
   typename TensorLagrange<dim, 3>::Values values;
   typename TensorLagrange<dim, 3>::Gradients gradients;
   for (unsigned int k = 0; k < cells.size(); ++k)
   {
-    std::array<Tensor<1, dim>, nv> sum{};
+    typename InterfaceVelocity<dim>::NodalForce sum{};
     for (unsigned int q = 0; q < cells[k].surface_weights.size(); ++q)
     {
-      const double weight =
-          coefficient / capillary_number * cells[k].surface_weights[q] * std::max((*tension)[k][q], 0.);
-      const double dilatational_weight =
-          dilatational_modulus != nullptr
-              ? coefficient / capillary_number * cells[k].surface_weights[q] * (*dilatational_modulus)[k][q]
-              : 0.;
+      const auto [weight, dilatational_weight] = weights(cells[k], k, q);
       const Tensor<1, dim> &n = cells[k].normals[q];
       TensorLagrange<dim, 3>::evaluate(cells[k].surface_points[q], values, gradients);
       Tensor<1, dim> slope; // of the normal component, with the normal of this point
       double divergence = 0.;
       for (unsigned int i = 0; i < gradients.size(); ++i)
       {
-        const Tensor<1, dim> &u = (*old_velocity)[k][i];
+        const Tensor<1, dim> &u = parameters.old_velocity[k][i];
         const Tensor<1, dim> gradient = gradients[i] - (gradients[i] * n) * n;
         slope += (u * n) * gradient;
         divergence += u * gradient;
       }
       slope /= cells[k].size;
       divergence *= dilatational_weight / cells[k].size;
-      const auto &test_gradients = force.tangential_gradient(k, q);
-      for (unsigned int i = 0; i < nv; ++i)
+      const auto &test_gradients = interface_velocity.tangential_gradient(k, q);
+      for (unsigned int i = 0; i < sum.size(); ++i)
         sum[i] += (weight * (test_gradients[i] * slope)) * n + divergence * test_gradients[i];
     }
-    local.fill(0.);
-    for (unsigned int f = 0; f < 2; ++f)
-      for (unsigned int i = 0; i < nv; ++i)
-        for (unsigned int c = 0; c < dim; ++c)
-          local[f * Layout::n + Layout::velocity(c, i)] = fluids.velocity_weight[f] * sum[i][c];
-    system.add_rhs(cut_cell_elements[k].element, local.data(), rhs);
+    interface_velocity.scatter(k, sum, context.system, right_side);
   }
 }
 
-template struct SemiImplicitTension<2>;
-template struct SemiImplicitTension<3>;
+template class SemiImplicitTension<2>;
+template class SemiImplicitTension<3>;
 } // namespace Gemmule

@@ -18,28 +18,28 @@ StokesAssembler<dim>::StokesAssembler(const UnfittedStokesSpace<dim> &space, con
 }
 
 template <int dim>
-void StokesAssembler<dim>::add_elements(const CutGeometry<dim> &geometry, ElementSystem &system,
-                                        const unsigned int n_additional_unknowns)
+void StokesAssembler<dim>::add_elements(const CutGeometry<dim> &geometry, LinearSystem &system)
 {
-  system.begin(space.n_unknowns() + n_additional_unknowns);
   add_cell_elements(geometry, system);
   add_face_elements(geometry, system);
 }
 
 template <int dim>
-void StokesAssembler<dim>::assemble(const CutGeometry<dim> &geometry, ElementSystem &system)
+LinearSystem::Vector StokesAssembler<dim>::assemble(const CutGeometry<dim> &geometry, LinearSystem &system)
 {
-  rhs.assign(system.n_unknowns(), 0.);
+  auto rhs = system.make_vector();
   system.zero_matrix();
-  add_cell_matrices(geometry, system);
-  add_face_matrices(system);
+  add_cell_matrices(geometry, system, rhs);
+  add_face_matrices(system, rhs);
+  return rhs;
 }
 
 template <int dim>
-void StokesAssembler<dim>::add_cell_elements(const CutGeometry<dim> &geometry, ElementSystem &system)
+void StokesAssembler<dim>::add_cell_elements(const CutGeometry<dim> &geometry, LinearSystem &system)
 {
   cells.clear();
-  cut_cells.clear();
+  cut_elements.clear();
+  cut_indices.clear();
   for (const unsigned int cell : space.owned_cells())
   {
     const CellLocation location = geometry.location(cell);
@@ -47,16 +47,18 @@ void StokesAssembler<dim>::add_cell_elements(const CutGeometry<dim> &geometry, E
     for (unsigned int fluid = 0; fluid < 2; ++fluid)
       if (geometry.is_active(cell, fluid))
         space.active_dofs(fluid).append(space.cell_dofs(cell), indices);
-    ActiveDofs<dim>::finish(indices);
+    indices.sort();
+    if (location == CellLocation::cut)
+      cut_indices.push_back(indices);
     cells.push_back({cell, system.add_element(std::move(indices)), location});
     if (location == CellLocation::cut)
-      cut_cells.push_back(cells.back());
+      cut_elements.push_back(cells.back().element);
   }
-  AssertDimension(cut_cells.size(), geometry.cut_cells().size());
+  AssertDimension(cut_elements.size(), geometry.cut_cells().size());
 }
 
 template <int dim>
-void StokesAssembler<dim>::add_face_elements(const CutGeometry<dim> &geometry, ElementSystem &system)
+void StokesAssembler<dim>::add_face_elements(const CutGeometry<dim> &geometry, LinearSystem &system)
 {
   faces.clear();
   std::vector<types::global_dof_index> dofs;
@@ -68,7 +70,7 @@ void StokesAssembler<dim>::add_face_elements(const CutGeometry<dim> &geometry, E
       dofs.insert(dofs.end(), space.cell_dofs(cell).begin() + begin, space.cell_dofs(cell).begin() + end);
     CondensedIndices indices;
     space.active_dofs(fluid).append(dofs, indices);
-    ActiveDofs<dim>::finish(indices);
+    indices.sort();
     return system.add_element(std::move(indices));
   };
 
@@ -89,7 +91,8 @@ void StokesAssembler<dim>::add_face_elements(const CutGeometry<dim> &geometry, E
 }
 
 template <int dim>
-void StokesAssembler<dim>::add_cell_matrices(const CutGeometry<dim> &geometry, ElementSystem &system)
+void StokesAssembler<dim>::add_cell_matrices(const CutGeometry<dim> &geometry, LinearSystem &system,
+                                             LinearSystem::Vector &rhs)
 {
   FullMatrix<double> cut_matrix(CutCellMatrix<dim>::n, CutCellMatrix<dim>::n);
   for (const StokesCellElement &c : cells)
@@ -105,7 +108,7 @@ void StokesAssembler<dim>::add_cell_matrices(const CutGeometry<dim> &geometry, E
 }
 
 template <int dim>
-void StokesAssembler<dim>::add_face_matrices(ElementSystem &system)
+void StokesAssembler<dim>::add_face_matrices(LinearSystem &system, LinearSystem::Vector &rhs)
 {
   FullMatrix<double> velocity(2 * Layout::n_velocity_nodes), pressure(2 * Layout::n_pressure_nodes);
   for (const FaceElement &f : faces)

@@ -30,8 +30,8 @@ namespace
 template <int dim>
 void StokesSolution<dim>::reinit(const UnfittedStokesSpace<dim> &new_space,
                                  const CutGeometry<dim> &new_geometry,
-                                 const StokesAssembler<dim> &new_assembler, const ElementSystem &system,
-                                 const std::vector<double> &unknowns)
+                                 const StokesAssembler<dim> &new_assembler, const LinearSystem &system,
+                                 const LinearSystem::Vector &unknowns)
 {
   space = &new_space;
   geometry = &new_geometry;
@@ -46,7 +46,7 @@ void StokesSolution<dim>::reinit(const UnfittedStokesSpace<dim> &new_space,
       local[k][outside ? 0 : 1].fill(0.);
     // The copies of a cut cell follow one another in its element.
     std::array<double, 2 * Layout::n> both;
-    system.element(cells[k].element).gather(unknowns, both.data());
+    system.gather(cells[k].element, unknowns, both.data());
     if (cells[k].location == CellLocation::cut)
       for (unsigned int fluid = 0; fluid < 2; ++fluid)
         std::copy_n(both.begin() + fluid * Layout::n, Layout::n, local[k][fluid].begin());

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <gemmule/flow/stokes_solver.h>
+#include <gemmule/parameters/discretisation.h>
 #include <gemmule/parameters/fluid.h>
 
 #include <deal.II/base/mpi.h>
-
-#include <algorithm>
-#include <cmath>
-#include <numeric>
 
 namespace Gemmule
 {
@@ -14,9 +11,10 @@ using namespace dealii;
 
 template <int dim>
 StokesSolver<dim>::StokesSolver(const parallel::distributed::Triangulation<dim> &triangulation,
-                                const Parameters::Fluid &fluid, const Parameters::Flow &discretisation)
+                                const Parameters::Fluid &fluid, const Parameters::Flow &discretisation,
+                                std::unique_ptr<LinearSolver> linear_solver)
     : capillary_number(fluid.capillary_number), space(triangulation), assembler(space, fluid, discretisation),
-      system(triangulation.get_communicator(), true)
+      system(triangulation.get_communicator(), true, std::move(linear_solver))
 {
 }
 
@@ -24,96 +22,108 @@ template <int dim>
 void StokesSolver<dim>::reinit_mesh()
 {
   space.reinit_mesh();
+  geometry = nullptr;
+}
+
+template <int dim>
+FlowTermContext<dim> StokesSolver<dim>::context(const unsigned int term)
+{
+  return {interface_velocity, system, extra_fields[term].get()};
+}
+
+template <int dim>
+void StokesSolver<dim>::set_up_system()
+{
+  BlockNumbering numbering(space.communicator());
+  space.add_fields(numbering);
+  extra_fields.clear();
+  unsigned int block = first_extra_block;
+  for (const auto &term : terms)
+  {
+    extra_fields.emplace_back();
+    if (const TraceSpace<dim> *const trace_space = term->extra_field_space())
+      extra_fields.back() = std::make_unique<ExtraField<dim>>(
+          *trace_space, numbering.add_field(trace_space->partition(), {block++}));
+  }
+  numbering.close();
+  space.renumber(numbering);
+
+  system.begin(numbering);
+  assembler.add_elements(*geometry, system);
+  for (const auto &field : extra_fields)
+    if (field != nullptr)
+      field->add_elements(assembler.cut_cell_indices(), system);
+  system.finish_elements();
 }
 
 template <int dim>
 void StokesSolver<dim>::prepare(const CutGeometry<dim> &new_geometry, const Function<dim> &boundary_velocity,
-                                const SemiImplicitTension<dim> *new_semi_implicit,
-                                SemiImplicitBending<dim> *new_semi_implicit_bending)
+                                const Terms &new_terms)
 {
   geometry = &new_geometry;
-  semi_implicit = new_semi_implicit;
-  semi_implicit_bending = new_semi_implicit_bending;
+  terms = new_terms;
   space.reinit(*geometry, boundary_velocity);
-  assembler.add_elements(*geometry, system,
-                         semi_implicit_bending != nullptr ? semi_implicit_bending->n_unknowns() : 0);
-  if (semi_implicit_bending != nullptr)
-    new_semi_implicit_bending->add_elements(space.n_unknowns(), assembler.cut_cell_elements(), system);
-  system.finish_elements();
-  assembler.assemble(*geometry, system);
-  force.reinit(*geometry);
-  rhs = assembler.boundary_rhs();
-  if (semi_implicit != nullptr)
-    semi_implicit->add_matrix(*geometry, force, capillary_number, assembler.fluids(),
-                              assembler.cut_cell_elements(), system, rhs);
-  if (semi_implicit_bending != nullptr)
-    semi_implicit_bending->add_matrix(*geometry, force, capillary_number, assembler.fluids(), system, rhs);
+  set_up_system();
+  wall_right_side = assembler.assemble(*geometry, system);
+  interface_velocity.reinit(*geometry);
+  interface_velocity.connect(assembler.fluids(), assembler.cut_cell_elements());
+  for (unsigned int t = 0; t < terms.size(); ++t)
+    terms[t]->add_matrix(context(t), wall_right_side);
+  wall_right_side.compress(VectorOperation::add);
   system.factorise();
 }
 
 template <int dim>
-void StokesSolver<dim>::solve(const MembranePointValues &tension, const ArclengthPenalty *penalty,
-                              const BendingForce<dim> *bending)
+void StokesSolver<dim>::solve()
 {
   Assert(geometry != nullptr, ExcMessage("prepare() must be called before solve()."));
-  AssertDimension(tension.size(), geometry->cut_cells().size());
+  std::vector<LinearSystem::Vector> right_sides{wall_right_side};
+  unsigned int with_unit_force = terms.size();
+  for (unsigned int t = 0; t < terms.size(); ++t)
+  {
+    terms[t]->add_right_side(context(t), right_sides[0]);
+    if (terms[t]->has_unit_force())
+    {
+      Assert(with_unit_force == terms.size(), ExcMessage("At most one term may have a unit force."));
+      with_unit_force = t;
+    }
+  }
+  if (with_unit_force < terms.size())
+  {
+    right_sides.push_back(system.make_vector());
+    terms[with_unit_force]->add_unit_force(context(with_unit_force), right_sides[1]);
+  }
+  std::vector<LinearSystem::Vector> solutions(right_sides.size(), system.make_vector());
+  system.solve(right_sides, solutions);
+  solution = std::move(solutions[0]);
+  if (with_unit_force < terms.size())
+    add_unit_force_flow(with_unit_force, right_sides[1], solutions[1]);
+
   const MPI_Comm communicator = space.communicator();
-  const auto &fluids = assembler.fluids();
-  const auto &elements = assembler.cut_cell_elements();
-  const bool constrained = penalty != nullptr && penalty->stiffness > 0.;
-
-  std::vector<std::vector<double>> solutions{rhs};
-  force.add_rhs(&tension, 0., capillary_number, fluids, elements, system, solutions[0]);
-  if (semi_implicit != nullptr)
-    semi_implicit->add_rhs(*geometry, force, capillary_number, fluids, elements, system, solutions[0]);
-  if (bending != nullptr)
-    bending->add_rhs(force, capillary_number, fluids, elements, system, solutions[0]);
-  if (semi_implicit_bending != nullptr)
-    semi_implicit_bending->add_rhs(*geometry, capillary_number, system, solutions[0]);
-  std::vector<double> unit_force;
-  if (constrained)
+  velocity = interface_velocity.gather(system, solution);
+  rate = Utilities::MPI::sum(interface_velocity.integrate_divergence(nullptr, velocity), communicator);
+  flux = Utilities::MPI::sum(interface_velocity.integrate_flux(velocity), communicator);
+  double power = 0.;
+  for (unsigned int t = 0; t < terms.size(); ++t)
   {
-    unit_force.assign(system.n_unknowns(), 0.);
-    force.add_rhs(nullptr, 1., capillary_number, fluids, elements, system, unit_force);
-    solutions.push_back(unit_force);
+    terms[t]->read(context(t), solution);
+    power += terms[t]->power(interface_velocity, velocity);
   }
-  system.solve(solutions);
+  work = -Utilities::MPI::sum(power, communicator);
+  bulk.reinit(space, *geometry, assembler, system, solution);
+}
 
-  penalty_tension = 0.;
-  std::vector<double> &unknowns = solutions[0];
-  if (constrained)
-  {
-    // u = y + s z, y the flow without penalty, z the flow of a unit tension. Solving s = Lambda (L - L0 + dt
-    // l(y + s z)) for s first is free of cancellation for any Lambda; -l(z) is the work of the unit tension,
-    // hence not negative.
-    const std::vector<double> &unit_flow = solutions[1];
-    const double rate_without = Utilities::MPI::sum(
-        force.integrate_divergence(nullptr, 1., force.average(fluids, elements, system, unknowns)),
-        communicator);
-    const double rate_of_unit =
-        -capillary_number *
-        Utilities::MPI::sum(std::inner_product(unit_force.begin(), unit_force.end(), unit_flow.begin(), 0.),
-                            communicator);
-    const double lambda = penalty->stiffness, dt = penalty->time_step;
-    if (std::isinf(lambda))
-      // On a circle no tension changes the length: the flow of a unit tension is round-off there, as is what
-      // it would have to balance.
-      penalty_tension = (penalty->excess / dt + rate_without) /
-                        std::max(-rate_of_unit, 1e-9 * geometry->measure() / capillary_number);
-    else
-      penalty_tension = lambda * (penalty->excess + dt * rate_without) / (1. - lambda * dt * rate_of_unit);
-    unit_tension_velocity = force.average(fluids, elements, system, unit_flow, /*homogeneous =*/true);
-    for (std::size_t i = 0; i < unknowns.size(); ++i)
-      unknowns[i] += penalty_tension * unit_flow[i];
-  }
-
-  velocity = force.average(fluids, elements, system, unknowns);
-  rate = Utilities::MPI::sum(force.integrate_divergence(nullptr, 1., velocity), communicator);
-  work = -Utilities::MPI::sum(force.integrate_divergence(&tension, penalty_tension, velocity), communicator);
-  if (bending != nullptr)
-    work -= Utilities::MPI::sum(bending->power(force, velocity), communicator);
-  flux = Utilities::MPI::sum(force.integrate_flux(velocity), communicator);
-  bulk.reinit(space, *geometry, assembler, system, unknowns);
+template <int dim>
+void StokesSolver<dim>::add_unit_force_flow(const unsigned int t, const LinearSystem::Vector &unit_force,
+                                            const LinearSystem::Vector &unit_flow)
+{
+  const auto without = interface_velocity.gather(system, solution);
+  const auto by_unit_force = interface_velocity.gather(system, unit_flow, /*homogeneous =*/true);
+  const double amplitude =
+      terms[t]->find_amplitude(context(t), {without, by_unit_force, unit_force * unit_flow});
+  solution.zero_out_ghost_values();
+  solution.add(amplitude, unit_flow);
+  solution.update_ghost_values();
 }
 
 template class StokesSolver<2>;

@@ -171,8 +171,24 @@ void UnfittedStokesSpace<dim>::reinit(const CutGeometry<dim> &geometry,
     outside_constraints.add_line(corner_pressure);
   outside_constraints.close();
 
-  active[0].reinit(handler, hanging_nodes, is_active[0]);
-  active[1].reinit(handler, outside_constraints, is_active[1], active[0].end());
+  std::vector<unsigned int> part_of_component(dim, velocity_block);
+  part_of_component.push_back(pressure_block);
+  active[0].reinit(handler, hanging_nodes, is_active[0], part_of_component);
+  active[1].reinit(handler, outside_constraints, is_active[1], part_of_component);
+}
+
+template <int dim>
+void UnfittedStokesSpace<dim>::add_fields(BlockNumbering &numbering) const
+{
+  for (const auto &fluid : active)
+    numbering.add_field(fluid.partition(), {velocity_block, pressure_block});
+}
+
+template <int dim>
+void UnfittedStokesSpace<dim>::renumber(const BlockNumbering &numbering)
+{
+  for (unsigned int fluid = 0; fluid < 2; ++fluid)
+    active[fluid].renumber(numbering, fluid);
 }
 
 template class UnfittedStokesSpace<2>;

@@ -130,11 +130,11 @@ void CahnHilliard<dim>::assemble_matrix(const TraceSpace<dim> &space, const Surf
 }
 
 template <int dim>
-std::vector<double> CahnHilliard<dim>::assemble_rhs(const TraceSpace<dim> &space,
-                                                    const SurfaceStep<dim> &step) const
+LinearSystem::Vector CahnHilliard<dim>::assemble_rhs(const TraceSpace<dim> &space,
+                                                     const SurfaceStep<dim> &step) const
 {
   using Basis = typename TraceSpace<dim>::Basis;
-  std::vector<double> rhs(2 * space.n_unknowns(), 0.);
+  auto rhs = system.make_vector();
   std::array<double, 2 * Basis::n> local;
   typename Basis::Values values;
   for (unsigned int k = 0; k < space.active_mesh().size(); ++k)
@@ -150,7 +150,7 @@ std::vector<double> CahnHilliard<dim>::assemble_rhs(const TraceSpace<dim> &space
         for (unsigned int i = 0; i < Basis::n; ++i)
           local[Basis::n + i] += factor * values[i];
       }
-    system.add_rhs(k, local.data(), rhs);
+    system.add_right_side(k, local.data(), rhs);
   }
   return rhs;
 }
@@ -175,10 +175,9 @@ void CahnHilliard<dim>::advance(const TraceSpace<dim> &space, const SurfaceStep<
       linearise();
       assemble_matrix(space, step);
     }
-    auto solution = assemble_rhs(space, step);
-    system.solve(solution);
-    f = space.extract(solution);
-    mu = space.extract(solution, space.n_unknowns());
+    const auto solution = system.solve(assemble_rhs(space, step));
+    f = space.extract(system, solution, 0);
+    mu = space.extract(system, solution, 1);
     const auto [error, magnitude] = update_points(space, f);
     if (error <= parameters.newton_tolerance * std::max(magnitude, 1e-3))
       return;
@@ -201,10 +200,10 @@ void CahnHilliard<dim>::initialise(const TraceSpace<dim> &space, const TraceFiel
   f = concentration;
   total_at_points = at_points<dim, 2>(space.geometry(), total_concentration);
   curvature_at_points = curvature;
-  ElementSystem projection(communicator, true);
+  LinearSystem projection(communicator, true);
   begin_system(space, 1, projection);
   projection.zero_matrix();
-  std::vector<double> rhs(space.n_unknowns(), 0.);
+  auto rhs = projection.make_vector();
   const double square = model.cahn_number() * model.cahn_number();
   FullMatrix<double> matrix(n, n);
   std::array<double, n> local;
@@ -232,11 +231,10 @@ void CahnHilliard<dim>::initialise(const TraceSpace<dim> &space, const TraceFiel
       }
     }
     projection.add_matrix(k, matrix);
-    projection.add_rhs(k, local.data(), rhs);
+    projection.add_right_side(k, local.data(), rhs);
   }
   projection.factorise();
-  projection.solve(rhs);
-  mu = space.extract(rhs);
+  mu = space.extract(projection, projection.solve(std::move(rhs)));
   n_iterations = 0;
 }
 

@@ -21,7 +21,7 @@ TraceField<dim> ConservativeTransport<dim>::advance(const TraceSpace<dim> &space
   constexpr unsigned int n = TraceSpace<dim>::Basis::n;
   begin_system(space, 1, system);
   system.zero_matrix();
-  std::vector<double> rhs(space.n_unknowns(), 0.);
+  auto rhs = system.make_vector();
 
   const double rate = step.bdf.a0 / step.time_step;
   FullMatrix<double> matrix(n, n);
@@ -49,11 +49,10 @@ TraceField<dim> ConservativeTransport<dim>::advance(const TraceSpace<dim> &space
     local.fill(0.);
     add_history(cell, step, &MembraneCloud<dim>::total_concentration, local.data());
     system.add_matrix(k, matrix);
-    system.add_rhs(k, local.data(), rhs);
+    system.add_right_side(k, local.data(), rhs);
   }
   system.factorise();
-  system.solve(rhs);
-  return space.extract(rhs);
+  return space.extract(system, system.solve(std::move(rhs)));
 }
 
 template class ConservativeTransport<2>;

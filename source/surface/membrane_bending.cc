@@ -13,7 +13,8 @@ using namespace dealii;
 
 template <int dim>
 MembraneBending<dim>::MembraneBending(const Triangulation<dim> &triangulation, const BendingModel &model)
-    : model(model), space(triangulation), system(triangulation.get_communicator(), true)
+    : model(model), shared_space(std::make_shared<TraceSpace<dim>>(triangulation)), space(*shared_space),
+      system(triangulation.get_communicator(), true)
 {
 }
 
@@ -47,7 +48,8 @@ void MembraneBending<dim>::compute_curvature(const CutGeometry<dim> &geometry,
   space.prepare(geometry, level_set_dofs, level_set, {{nullptr, nullptr}});
   assemble_mass_matrix();
 
-  std::vector<std::vector<double>> solutions(dim, std::vector<double>(space.n_unknowns(), 0.));
+  std::vector<LinearSystem::Vector> right_sides(dim, system.make_vector()),
+      solutions(dim, system.make_vector());
   SurfacePoint<dim> point;
   std::array<std::array<double, n>, dim> local;
   for (unsigned int k = 0; k < space.active_mesh().size(); ++k)
@@ -63,16 +65,16 @@ void MembraneBending<dim>::compute_curvature(const CutGeometry<dim> &geometry,
           local[c][i] += cell.surface_weights[q] * point.surface_gradients[i][c];
     }
     for (unsigned int c = 0; c < dim; ++c)
-      system.add_rhs(k, local[c].data(), solutions[c]);
+      system.add_right_side(k, local[c].data(), right_sides[c]);
   }
-  system.solve(solutions);
+  system.solve(right_sides, solutions);
 
   curvature_at_points.assign(geometry.cut_cells().size(), {});
   for (unsigned int k = 0; k < curvature_at_points.size(); ++k)
     curvature_at_points[k].assign(geometry.cut_cells()[k].surface_points.size(), 0.);
   for (unsigned int c = 0; c < dim; ++c)
   {
-    const TraceField<dim> component = space.extract(solutions[c]);
+    const TraceField<dim> component = space.extract(system, solutions[c]);
     for (unsigned int k = 0; k < curvature_at_points.size(); ++k)
     {
       const CutCell<dim> &cell = geometry.cut_cells()[k];
@@ -89,7 +91,7 @@ void MembraneBending<dim>::compute_moment(const TraceField<dim> *const concentra
 {
   using Basis = typename TraceSpace<dim>::Basis;
   moments = energies = curvature_at_points;
-  std::vector<double> solution(space.n_unknowns(), 0.);
+  auto right_side = system.make_vector();
   std::array<double, Basis::n> local;
   SurfacePoint<dim> point;
   double energy = 0., largest_numerical_rigidity = 0.;
@@ -112,10 +114,9 @@ void MembraneBending<dim>::compute_moment(const TraceField<dim> *const concentra
       for (unsigned int i = 0; i < Basis::n; ++i)
         local[i] += cell.surface_weights[q] * bending.moment * point.values[i];
     }
-    system.add_rhs(b, local.data(), solution);
+    system.add_right_side(b, local.data(), right_side);
   }
-  system.solve(solution);
-  moment_field = space.extract(solution);
+  moment_field = space.extract(system, system.solve(std::move(right_side)));
   total_energy = Utilities::MPI::sum(energy, space.communicator());
   numerical_rigidity = Utilities::MPI::max(largest_numerical_rigidity, space.communicator());
 }

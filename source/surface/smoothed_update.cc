@@ -61,7 +61,7 @@ TraceField<dim> SmoothedUpdate<dim>::smoothed_rate(const TraceSpace<dim> &space,
   constexpr unsigned int n = TraceSpace<dim>::Basis::n;
   begin_system(space, 2, system);
   system.zero_matrix();
-  std::vector<double> rhs(2 * space.n_unknowns(), 0.);
+  auto rhs = system.make_vector();
   FullMatrix<double> matrix(2 * n, 2 * n), stiffness(n, n), mass(n, n);
   std::array<double, 2 * n> local;
   SurfacePoint<dim> point;
@@ -94,11 +94,10 @@ TraceField<dim> SmoothedUpdate<dim>::smoothed_rate(const TraceSpace<dim> &space,
         matrix(n + i, j) = -stiffness(i, j);
       }
     system.add_matrix(k, matrix);
-    system.add_rhs(k, local.data(), rhs);
+    system.add_right_side(k, local.data(), rhs);
   }
   system.factorise();
-  system.solve(rhs);
-  return space.extract(rhs);
+  return space.extract(system, system.solve(std::move(rhs)));
 }
 
 template <int dim>

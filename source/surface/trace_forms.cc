@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <gemmule/algebra/element_system.h>
+#include <gemmule/algebra/linear_system.h>
 #include <gemmule/geometry/membrane_snapshot.h>
 #include <gemmule/surface/trace_forms.h>
 
@@ -8,26 +8,19 @@ namespace Gemmule
 using namespace dealii;
 
 template <int dim>
-void begin_system(const TraceSpace<dim> &space, const unsigned int n_fields, ElementSystem &system)
+void begin_system(const TraceSpace<dim> &space, const unsigned int n_fields, LinearSystem &system)
 {
-  const unsigned int n = space.n_unknowns();
-  system.begin(n_fields * n);
+  BlockNumbering numbering(space.communicator());
+  for (unsigned int field = 0; field < n_fields; ++field)
+    numbering.add_field(space.partition(), {field});
+  numbering.close();
+  system.begin(numbering);
   for (const auto &single : space.elements())
   {
     CondensedIndices element;
     for (unsigned int field = 0; field < n_fields; ++field)
-    {
-      for (const auto index : single.indices)
-        element.indices.push_back(field * n + index);
-      const unsigned int first_entry = element.entries.size();
-      for (const auto &[position, weight] : single.entries)
-        element.entries.emplace_back(field * single.indices.size() + position, weight);
-      for (unsigned int i = 0; i < single.n_local(); ++i)
-      {
-        element.row_start.push_back(first_entry + single.row_start[i + 1]);
-        element.inhomogeneities.push_back(single.inhomogeneities[i]);
-      }
-    }
+      element.append(single, [&](const auto index) { return numbering.number(field, index); });
+    element.sort();
     system.add_element(std::move(element));
   }
   system.finish_elements();
@@ -75,10 +68,10 @@ TraceField<dim> project(const TraceSpace<dim> &space,
                         const std::function<double(unsigned int, unsigned int, const Point<dim> &)> &function)
 {
   constexpr unsigned int n = TraceSpace<dim>::Basis::n;
-  ElementSystem system(space.communicator(), true);
+  LinearSystem system(space.communicator(), true);
   begin_system(space, 1, system);
   system.zero_matrix();
-  std::vector<double> rhs(space.n_unknowns(), 0.);
+  auto rhs = system.make_vector();
   FullMatrix<double> matrix(n, n);
   std::array<double, n> local;
   SurfacePoint<dim> point;
@@ -96,15 +89,14 @@ TraceField<dim> project(const TraceSpace<dim> &space,
           local[i] += cell.cut->surface_weights[q] * point.values[i] * value;
       }
     system.add_matrix(k, matrix);
-    system.add_rhs(k, local.data(), rhs);
+    system.add_right_side(k, local.data(), rhs);
   }
   system.factorise();
-  system.solve(rhs);
-  return space.extract(rhs);
+  return space.extract(system, system.solve(std::move(rhs)));
 }
 
 #define GEMMULE_INSTANTIATE(dim)                                                                             \
-  template void begin_system(const TraceSpace<dim> &, unsigned int, ElementSystem &);                        \
+  template void begin_system(const TraceSpace<dim> &, unsigned int, LinearSystem &);                         \
   template void stabilised_mass_matrix(const TraceCell<dim> &, FullMatrix<double> &);                        \
   template void add_history(const TraceCell<dim> &, const SurfaceStep<dim> &,                                \
                             std::vector<double> MembraneCloud<dim>::*, double *);                            \

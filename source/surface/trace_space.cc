@@ -8,6 +8,7 @@
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/dofs/dof_tools.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace Gemmule
@@ -179,7 +180,7 @@ void TraceSpace<dim>::prepare(const CutGeometry<dim> &geometry, const DoFHandler
         ordered[i] = dofs[lexicographic[i]];
       CondensedIndices element;
       active_dofs.append(ordered, element);
-      ActiveDofs<dim>::finish(element);
+      element.sort();
       cell_elements.push_back(std::move(element));
     }
   for (const auto &entry : located)
@@ -187,13 +188,18 @@ void TraceSpace<dim>::prepare(const CutGeometry<dim> &geometry, const DoFHandler
 }
 
 template <int dim>
-TraceField<dim> TraceSpace<dim>::extract(const std::vector<double> &solution, const unsigned int first) const
+TraceField<dim> TraceSpace<dim>::extract(const LinearSystem &system, const LinearSystem::Vector &solution,
+                                         const unsigned int field) const
 {
-  const std::vector<double> field(solution.begin() + first, solution.begin() + first + n_unknowns());
   TraceField<dim> values(current_geometry->cut_cells().size());
+  std::vector<double> local;
   for (unsigned int k = 0; k < cells.size(); ++k)
     if (cells[k].cut)
-      cell_elements[k].gather(field, values[cells[k].cut_index].data());
+    {
+      local.resize(system.numbering().n_fields() * Basis::n);
+      system.gather(k, solution, local.data());
+      std::copy_n(local.begin() + field * Basis::n, Basis::n, values[cells[k].cut_index].begin());
+    }
   return values;
 }
 

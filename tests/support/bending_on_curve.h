@@ -15,7 +15,7 @@ struct BendingOnCurve
   SurfaceHarness harness;
   BendingModel model;
   MembraneBending<2> bending;
-  MembraneForce<2> force;
+  InterfaceVelocity<2> interface_velocity;
 
   BendingOnCurve(const unsigned int level, const Parameters::Bending &parameters,
                  const std::function<bool(const Point<2> &)> &refine = {})
@@ -30,7 +30,7 @@ struct BendingOnCurve
   {
     harness.set_membrane(distance);
     bending.compute_curvature(harness.geometry, harness.mesh.dof_handler, harness.mesh.level_set);
-    force.reinit(harness.geometry);
+    interface_velocity.reinit(harness.geometry);
   }
 
   /** Q2 interpolant on the cut cells. */
@@ -60,7 +60,7 @@ struct BendingOnCurve
       for (unsigned int i = 0; i < velocity[k].nodal.size(); ++i)
         velocity[k].nodal[i] = v(cell.physical(TensorLagrange<2, 2>::node(i)));
     }
-    return Utilities::MPI::sum(BendingForce<2>(bending, harness.geometry).power(force, velocity),
+    return Utilities::MPI::sum(BendingForce<2>(bending, 1.).power(interface_velocity, velocity),
                                MPI_COMM_WORLD);
   }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <gemmule/flow/stokes_solver.h>
+#include <gemmule/flow/tension_force.h>
 #include <gemmule/parameters/discretisation.h>
 #include <gemmule/parameters/fluid.h>
 
@@ -50,10 +51,13 @@ struct FlowOnCircle
     }
   }
 
-  void solve(const Function<dim> &boundary_velocity, const ArclengthPenalty *penalty = nullptr)
+  /** The flow that the tension and @p more terms drive. */
+  void solve(const Function<dim> &boundary_velocity, const typename StokesSolver<dim>::Terms &more = {})
   {
-    solver.prepare(geometry, boundary_velocity);
-    solver.solve(tension, penalty);
+    typename StokesSolver<dim>::Terms terms = more;
+    terms.push_back(std::make_shared<TensionForce<dim>>(tension, fluid.capillary_number));
+    solver.prepare(geometry, boundary_velocity, terms);
+    solver.solve();
   }
 
   /** At the vertices, for a pressure of mean zero that is constant on either side of the membrane. */

@@ -1,38 +1,37 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <gemmule/algebra/linear_solver.h>
+
 #include <memory>
 #include <mpi.h>
-#include <vector>
 
 namespace Gemmule
 {
 /**
- * Sparse direct solver MUMPS with distributed input: each rank gives the entries it has (entries given more
- * than once, on one rank or several, are added). Approximate minimum degree ordering, which the design
- * measured as the fastest.
+ * Sparse direct solver MUMPS with everything distributed: each rank gives the entries of the matrix that it
+ * has (those of several ranks at one place are added) and its own part of the right sides, and gets its own
+ * part of the solutions. Approximate minimum degree ordering, which is the fastest for the matrices of 2D
+ * (doc/method-flow.md). The symbolic factorisation is kept as long as the pattern is.
  */
-class MumpsSolver
+class MumpsSolver : public LinearSolver
 {
 public:
-  /** @param symmetric general symmetric (LDL^T): give one triangle only. */
+  /** @param symmetric general symmetric (LDL^T), for matrices of which one triangle is stored */
   MumpsSolver(MPI_Comm communicator, bool symmetric);
-  ~MumpsSolver();
+  ~MumpsSolver() override;
   MumpsSolver(const MumpsSolver &) = delete;
   MumpsSolver &operator=(const MumpsSolver &) = delete;
 
-  /** Sets the positions of the local entries (zero-based) and does the symbolic factorisation. Collective. */
-  void analyse(unsigned int n, const std::vector<unsigned int> &rows,
-               const std::vector<unsigned int> &columns);
+  /** Factorises. @throws SimulationError when the matrix is singular, or memory is short */
+  void prepare(const SubassembledMatrix &matrix, const BlockNumbering &numbering) override;
 
-  /** Numerical factorisation of the values at the analysed positions. Throws SimulationError. Collective. */
-  void factorise(const std::vector<double> &values);
-
-  /** Solves for @p n_rhs right-hand sides, stored one after the other on rank 0; the result is on rank 0.
-   * Collective. */
-  void solve(std::vector<double> &rhs, unsigned int n_rhs);
+  void solve(const std::vector<Vector> &right_sides, std::vector<Vector> &solutions) override;
 
 private:
+  void analyse(const SubassembledMatrix &matrix, unsigned long long n);
+  void factorise(const std::vector<double> &values);
+
   struct Instance;
   std::unique_ptr<Instance> instance;
 };

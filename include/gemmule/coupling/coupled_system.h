@@ -101,8 +101,8 @@ public:
   const MembraneBending<dim> *get_bending() const { return bending.get(); }
   const StokesSolver<dim> &get_flow() const { return membrane_flow.solver(); }
   const MembraneModel &get_model() const { return model; }
-  /** sigma with the arclength constraint's part, per owned cut cell and quadrature point. */
-  const MembranePointValues &tension() const { return membrane_flow.tension(); }
+  /** Tension and flow, and how they are coupled. */
+  const MembraneFlow<dim> &get_membrane_flow() const { return membrane_flow; }
   double reference_arclength() const { return arclength_0; }
   double area_correction() const { return last_area_correction; }
   unsigned int lowered_levels() const { return adaptation.lowered_levels(); }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include <gemmule/flow/semi_implicit_tension.h>
+#include <gemmule/flow/arclength_constraint.h>
 #include <gemmule/flow/stokes_solver.h>
 #include <gemmule/geometry/cut_geometry.h>
 #include <gemmule/model/membrane_model.h>
@@ -54,25 +54,44 @@ public:
              dealii::TimerOutput &timer);
 
   const StokesSolver<dim> &solver() const { return stokes; }
-  /** sigma with the arclength constraint's part, per owned cut cell and quadrature point. */
-  const MembranePointValues &tension() const { return total_tension; }
-  /** Over the whole membrane. Collective. */
+  /** sigma without the arclength constraint's part, per owned cut cell and quadrature point. */
+  const MembranePointValues &own_tension() const { return sigma; }
+  /** int sigma over the whole membrane, without that part: a constraint has its own energy, or none.
+   * Collective. */
+  double tension_energy(const CutGeometry<dim> &geometry) const;
+  /** The uniform tension of the arclength constraint; 0 without one. */
+  double constraint_tension() const { return constraint != nullptr ? constraint->tension() : 0.; }
+  /** sigma with the arclength constraint's part. */
+  MembranePointValues tension() const;
+  /** <u> per unit of the constraint's tension on the cut cells; after a flow with a constraint. */
+  const std::vector<MembraneVelocity<dim>> &tension_velocity() const
+  {
+    return constraint->velocity_of_unit_tension();
+  }
+  /** Of tension(), over the whole membrane. Collective. */
   double smallest_tension() const;
   /** What limits the step that leads away from the last solution. Collective. */
   TimeStepLimits time_step_limits(const CutGeometry<dim> &geometry) const;
 
 private:
+  using Terms = typename StokesSolver<dim>::Terms;
+
   MembranePointValues tension_of(const Membrane &membrane, double time) const;
   /** Tension that resists short waves of the shape: sigma and the positive part of bending's. */
   MembranePointValues stiff_tension(const MembraneBending<dim> *bending) const;
   MembranePointValues dilatational_modulus(const Membrane &membrane) const;
-  void solve_with_constraint(const Membrane &membrane, double dt, const BendingForce<dim> *bending_force);
+  /** What damps the fast shape modes of the explicit coupling. */
+  void add_semi_implicit_terms(const Membrane &membrane, double dt, const CutCellVector<dim> &old_velocity,
+                               Terms &terms) const;
+  /** The arclength constraint; nullptr: none. */
+  std::shared_ptr<ArclengthConstraint<dim>> make_constraint(const Membrane &membrane, double dt) const;
 
   const AllParameters &parameters;
   const MembraneModel &model;
   const MPI_Comm communicator;
   std::unique_ptr<dealii::Function<dim>> boundary_velocity, prescribed_tension;
   StokesSolver<dim> stokes;
-  MembranePointValues total_tension;
+  MembranePointValues sigma;
+  std::shared_ptr<ArclengthConstraint<dim>> constraint; ///< of the last flow; nullptr: none
 };
 } // namespace Gemmule

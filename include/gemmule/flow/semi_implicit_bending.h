@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include <gemmule/flow/semi_implicit_tension.h>
-#include <gemmule/surface/trace_space.h>
+#include <gemmule/flow/flow_term.h>
+
+#include <memory>
 
 namespace Gemmule
 {
@@ -22,33 +23,29 @@ namespace Gemmule
  * lose it. A time step is then not limited by h^3 (doc/method.md).
  */
 template <int dim>
-struct SemiImplicitBending
+class SemiImplicitBending : public FlowTerm<dim>
 {
-  using NodalVelocity = typename SemiImplicitTension<dim>::NodalVelocity;
-
-  double coefficient = 0.;                                  ///< S dt k
-  const TraceSpace<dim> *space = nullptr;                   ///< its active mesh: the cut cells
-  const std::vector<NodalVelocity> *old_velocity = nullptr; ///< u_old on the cut cells, Q3
-
-  /** Additional unknowns, on all ranks. */
-  unsigned int n_unknowns() const { return space->n_unknowns(); }
+public:
+  using typename FlowTerm<dim>::Vector;
+  using NodalVelocity = std::array<dealii::Tensor<1, dim>, TensorLagrange<dim, 3>::n>;
 
   /**
-   * Adds one element per cut cell, with the unknowns of its flow followed by those of z, to a system to which
-   * the elements of the flow have been added. @p first_unknown: number of flow unknowns.
+   * @param coefficient S dt k
+   * @param space whose active mesh is the cut cells
+   * @param old_velocity u_old on the cut cells, Q3
    */
-  void add_elements(unsigned int first_unknown, const std::vector<StokesCellElement> &cut_cell_elements,
-                    ElementSystem &system);
+  SemiImplicitBending(double coefficient, std::shared_ptr<const TraceSpace<dim>> space,
+                      std::vector<NodalVelocity> old_velocity, double capillary_number);
 
-  /** Adds the matrices of these elements, and what they do to boundary values to @p rhs. */
-  void add_matrix(const CutGeometry<dim> &geometry, const MembraneForce<dim> &force, double capillary_number,
-                  const FluidPair &fluids, ElementSystem &system, std::vector<double> &rhs) const;
-
-  /** Adds this rank's part of the right side, that of u_old. */
-  void add_rhs(const CutGeometry<dim> &geometry, double capillary_number, const ElementSystem &system,
-               std::vector<double> &rhs) const;
+  /** The space of z. */
+  const TraceSpace<dim> *extra_field_space() const override { return space.get(); }
+  void add_matrix(const FlowTermContext<dim> &context, Vector &right_side) const override;
+  /** The part of u_old. */
+  void add_right_side(const FlowTermContext<dim> &context, Vector &right_side) const override;
 
 private:
-  std::vector<unsigned int> elements; ///< by cut cell
+  const double scale; ///< sqrt(S dt k / Ca)
+  const std::shared_ptr<const TraceSpace<dim>> space;
+  const std::vector<NodalVelocity> old_velocity;
 };
 } // namespace Gemmule

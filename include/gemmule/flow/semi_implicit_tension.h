@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include <gemmule/flow/membrane_force.h>
+#include <gemmule/flow/flow_term.h>
 
 namespace Gemmule
 {
@@ -18,23 +18,35 @@ namespace Gemmule
  * every step with S >= 0.4 (doc/method.md).
  */
 template <int dim>
-struct SemiImplicitTension
+class SemiImplicitTension : public FlowTerm<dim>
 {
+public:
+  using typename FlowTerm<dim>::Vector;
   using NodalVelocity = std::array<dealii::Tensor<1, dim>, TensorLagrange<dim, 3>::n>;
 
-  double coefficient = 0.;                                   ///< S dt
-  const MembranePointValues *tension = nullptr;              ///< sigma
-  const MembranePointValues *dilatational_modulus = nullptr; ///< E = -d sigma / d log(length); nullptr: 0
-  const std::vector<NodalVelocity> *old_velocity = nullptr;  ///< u_old on the cut cells, Q3
+  struct Parameters
+  {
+    double coefficient;                       ///< S dt
+    MembranePointValues tension;              ///< sigma
+    MembranePointValues dilatational_modulus; ///< E = -d sigma / d log(length); empty: 0
+    std::vector<NodalVelocity> old_velocity;  ///< u_old on the cut cells, Q3
+  };
 
-  /** Adds the matrices of the cut cells to the system, and what they do to boundary values to @p rhs. */
-  void add_matrix(const CutGeometry<dim> &geometry, const MembraneForce<dim> &force, double capillary_number,
-                  const FluidPair &fluids, const std::vector<StokesCellElement> &cut_cell_elements,
-                  ElementSystem &system, std::vector<double> &rhs) const;
+  SemiImplicitTension(Parameters parameters, const double capillary_number)
+      : parameters(std::move(parameters)), capillary_number(capillary_number)
+  {
+  }
 
-  /** Adds this rank's part of the right side, that of u_old. */
-  void add_rhs(const CutGeometry<dim> &geometry, const MembraneForce<dim> &force, double capillary_number,
-               const FluidPair &fluids, const std::vector<StokesCellElement> &cut_cell_elements,
-               const ElementSystem &system, std::vector<double> &rhs) const;
+  void add_matrix(const FlowTermContext<dim> &context, Vector &right_side) const override;
+
+  /** The part of u_old. */
+  void add_right_side(const FlowTermContext<dim> &context, Vector &right_side) const override;
+
+private:
+  /** (S dt / Ca) times the weight of a quadrature point times max(sigma, 0), and times E. */
+  std::pair<double, double> weights(const CutCell<dim> &cell, unsigned int k, unsigned int q) const;
+
+  const Parameters parameters;
+  const double capillary_number;
 };
 } // namespace Gemmule

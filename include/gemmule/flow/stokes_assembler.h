@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include <gemmule/algebra/element_system.h>
+#include <gemmule/algebra/linear_system.h>
 #include <gemmule/flow/cut_cell_matrix.h>
 #include <gemmule/flow/stokes_reference_matrices.h>
 #include <gemmule/flow/unfitted_stokes_space.h>
@@ -22,14 +22,14 @@ namespace Parameters
 struct StokesCellElement
 {
   unsigned int cell;     ///< active_cell_index
-  unsigned int element;  ///< in the ElementSystem
+  unsigned int element;  ///< in the LinearSystem
   CellLocation location; ///< cut: the element holds both fluids, inside first
 };
 
 /**
- * Puts the doubled Taylor-Hood discretisation of design section 2 into a symmetric ElementSystem: one element
- * per uncut cell, one with both fluids per cut cell, and for each fluid and ghost-penalty face one element
- * per velocity component and one for the pressure (which do not couple).
+ * Puts the doubled Taylor-Hood discretisation of doc/method-flow.md into a symmetric LinearSystem: one
+ * element per uncut cell, one with both fluids per cut cell, and for each fluid and ghost-penalty face one
+ * element per velocity component and one for the pressure (which do not couple).
  */
 template <int dim>
 class StokesAssembler
@@ -41,23 +41,21 @@ public:
                   const Parameters::Flow &discretisation);
 
   /**
-   * Starts the system with the elements for the position of the membrane for which the space was numbered.
-   * More elements, and then ElementSystem::finish_elements(), may follow before assemble().
-   * @param n_additional_unknowns room for unknowns of others, after those of the flow
+   * Adds the elements for the position of the membrane for which the space was numbered to a system that has
+   * been begun. More elements, and then LinearSystem::finish_elements(), may follow before assemble().
    */
-  void add_elements(const CutGeometry<dim> &geometry, ElementSystem &system,
-                    unsigned int n_additional_unknowns = 0);
+  void add_elements(const CutGeometry<dim> &geometry, LinearSystem &system);
 
-  /** Sets the matrix to that of the flow. */
-  void assemble(const CutGeometry<dim> &geometry, ElementSystem &system);
-
-  /** Right side due to the velocity on the boundary: this rank's part. */
-  const std::vector<double> &boundary_rhs() const { return rhs; }
+  /** Sets the matrix to that of the flow. @return right side due to the velocity on the boundary: this rank's
+   * part */
+  LinearSystem::Vector assemble(const CutGeometry<dim> &geometry, LinearSystem &system);
 
   /** Elements of all locally owned cells in the order of the mesh. */
   const std::vector<StokesCellElement> &cell_elements() const { return cells; }
   /** Elements of the cut cells, in the order of CutGeometry::cut_cells(). */
-  const std::vector<StokesCellElement> &cut_cell_elements() const { return cut_cells; }
+  const std::vector<unsigned int> &cut_cell_elements() const { return cut_elements; }
+  /** Their condensed indices. */
+  const std::vector<CondensedIndices> &cut_cell_indices() const { return cut_indices; }
 
   const FluidPair &fluids() const { return pair; }
 
@@ -69,10 +67,10 @@ private:
     unsigned int first_element; ///< dim velocity components, then the pressure
   };
 
-  void add_cell_elements(const CutGeometry<dim> &geometry, ElementSystem &system);
-  void add_face_elements(const CutGeometry<dim> &geometry, ElementSystem &system);
-  void add_cell_matrices(const CutGeometry<dim> &geometry, ElementSystem &system);
-  void add_face_matrices(ElementSystem &system);
+  void add_cell_elements(const CutGeometry<dim> &geometry, LinearSystem &system);
+  void add_face_elements(const CutGeometry<dim> &geometry, LinearSystem &system);
+  void add_cell_matrices(const CutGeometry<dim> &geometry, LinearSystem &system, LinearSystem::Vector &rhs);
+  void add_face_matrices(LinearSystem &system, LinearSystem::Vector &rhs);
   const dealii::FullMatrix<double> &uncut_cell_matrix(unsigned int cell, unsigned int fluid);
 
   const UnfittedStokesSpace<dim> &space;
@@ -82,8 +80,8 @@ private:
   std::array<std::map<unsigned int, dealii::FullMatrix<double>>, 2> uncut_matrices; ///< by level
 
   std::vector<StokesCellElement> cells;
-  std::vector<StokesCellElement> cut_cells;
+  std::vector<unsigned int> cut_elements;
+  std::vector<CondensedIndices> cut_indices;
   std::vector<FaceElement> faces;
-  std::vector<double> rhs;
 };
 } // namespace Gemmule

@@ -5,6 +5,14 @@
 
 namespace Gemmule
 {
+/** The blocks of the flow's unknowns (BlockNumbering); those of extra fields follow. */
+enum FlowBlock : unsigned int
+{
+  velocity_block = 0,
+  pressure_block = 1,
+  first_extra_block = 2
+};
+
 /**
  * Order of the unknowns of one fluid on one cell: the components of the Q2 velocity one after the other, then
  * the Q1 pressure, each in lexicographic order. In this order element matrices fall apart into blocks of

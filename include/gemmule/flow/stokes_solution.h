@@ -22,11 +22,11 @@ public:
   using Vector = dealii::LinearAlgebra::distributed::Vector<double>;
   using Local = std::array<double, Layout::n>;
 
-  /** Takes the solution of the reduced system apart. The arguments must stay as long as this is used.
-   * Collective. */
+  /** Takes the solution of the reduced system, ghosted, apart. The arguments must stay as long as this is
+   * used. Collective. */
   void reinit(const UnfittedStokesSpace<dim> &space, const CutGeometry<dim> &geometry,
-              const StokesAssembler<dim> &assembler, const ElementSystem &system,
-              const std::vector<double> &unknowns);
+              const StokesAssembler<dim> &assembler, const LinearSystem &system,
+              const LinearSystem::Vector &unknowns);
 
   /** (Ca/2) int eta |grad u + grad u^T|^2 over both fluids. Collective. */
   double viscous_dissipation(double capillary_number) const;

@@ -1,79 +1,63 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include <gemmule/flow/bending_force.h>
+#include <gemmule/flow/extra_field.h>
 #include <gemmule/flow/flow_error_estimator.h>
-#include <gemmule/flow/membrane_force.h>
-#include <gemmule/flow/semi_implicit_bending.h>
-#include <gemmule/flow/semi_implicit_tension.h>
+#include <gemmule/flow/flow_term.h>
+#include <gemmule/flow/interface_velocity.h>
 #include <gemmule/flow/stokes_assembler.h>
 #include <gemmule/flow/stokes_solution.h>
 #include <gemmule/flow/unfitted_stokes_space.h>
 
+#include <memory>
+
 namespace Gemmule
 {
 /**
- * Penalty Lambda (L - L0) on the arclength L, taken implicitly: the tension of the end of a time step of size
- * dt is Lambda (L - L0 + dt dL/dt) with dL/dt = int div_s <u>. With Lambda infinite it is the Lagrange
- * multiplier of dL/dt = -(L - L0)/dt.
- */
-struct ArclengthPenalty
-{
-  double stiffness; ///< Lambda >= 0, may be infinite
-  double excess;    ///< L - L0 of the membrane for which the flow is solved
-  double time_step; ///< dt; 0 makes the penalty explicit
-};
-
-/**
- * Stokes flow of the two fluids, driven by the tension of the membrane and the velocity on the boundary of
- * the box (design sections 1 and 2).
+ * Stokes flow of the two fluids, driven by terms on the membrane (FlowTerm) and the velocity on the boundary
+ * of the box (doc/method-flow.md).
  *
- * Use: reinit_mesh() after each change of the mesh; prepare() for each position of the membrane; then any
- * number of times solve() and the results. All calls are collective.
+ * Use: reinit_mesh() after each change of the mesh; prepare() for each position of the membrane; solve(); the
+ * results. All calls are collective.
  */
 template <int dim>
 class StokesSolver
 {
 public:
   using Vector = typename StokesSolution<dim>::Vector;
+  using Terms = std::vector<std::shared_ptr<FlowTerm<dim>>>;
 
-  /** The triangulation must outlive this; its cells are cubes. */
+  /**
+   * The triangulation must outlive this; its cells are cubes.
+   * @param linear_solver nullptr: the direct solver
+   */
   StokesSolver(const dealii::parallel::distributed::Triangulation<dim> &triangulation,
-               const Parameters::Fluid &fluid, const Parameters::Flow &discretisation);
+               const Parameters::Fluid &fluid, const Parameters::Flow &discretisation,
+               std::unique_ptr<LinearSolver> linear_solver = nullptr);
 
   void reinit_mesh();
 
   /**
-   * Assembles and factorises. @p geometry must stay unchanged as long as solve() and the results are used.
+   * Assembles the matrix, and hands it to the linear solver. @p geometry must stay unchanged as long as
+   * solve() and the results are used.
    * @param boundary_velocity u_infinity, dim components, its time set by the caller
-   * @param semi_implicit, semi_implicit_bending damping of the fast shape modes, nullptr for none; what they
-   * point to must stay as long as solve() is used
+   * @param terms made for the same geometry; at most one of them has a unit force
    * Throws SimulationError (membrane at the boundary, factorisation) and UserError (u_infinity with net
    * flux).
    */
   void prepare(const CutGeometry<dim> &geometry, const dealii::Function<dim> &boundary_velocity,
-               const SemiImplicitTension<dim> *semi_implicit = nullptr,
-               SemiImplicitBending<dim> *semi_implicit_bending = nullptr);
+               const Terms &terms);
 
-  /**
-   * @param tension sigma at the quadrature points of the membrane, without the penalty
-   * @param penalty adds its tension to sigma; nullptr for none
-   * @param bending adds the bending force; nullptr for none
-   */
-  void solve(const MembranePointValues &tension, const ArclengthPenalty *penalty = nullptr,
-             const BendingForce<dim> *bending = nullptr);
+  /** Solves for the flow that the terms drive. Throws SimulationError. */
+  void solve();
 
   /** <u> on the locally owned cut cells, in the order of CutGeometry::cut_cells(). */
   const std::vector<MembraneVelocity<dim>> &membrane_velocity() const { return velocity; }
 
   /** dL/dt = int div_s <u>. */
   double arclength_rate() const { return rate; }
-  /** Lambda (L - L0 + dt dL/dt) of the last solve(), which the given tension does not contain. */
-  double constraint_tension() const { return penalty_tension; }
-  /** The part of membrane_velocity() per unit of the constraint's tension; after a solve() with a penalty. */
-  const std::vector<MembraneVelocity<dim>> &tension_velocity() const { return unit_tension_velocity; }
-  /** -int sigma_total div_s <u>, less what bending takes up: equals viscous_dissipation() up to
-   * discretisation if the boundary is at rest. */
+  /** The power of all terms' forces: equals viscous_dissipation() up to discretisation if the boundary is at
+   * rest. */
   double membrane_work() const { return work; }
   /** int <u>.n: zero but for the error of the quadrature. */
   double net_flux() const { return flux; }
@@ -81,8 +65,8 @@ public:
   double viscous_dissipation() const { return bulk.viscous_dissipation(capillary_number); }
   /** Largest speed at the nodes, on the physical side of the membrane. */
   double max_velocity() const { return bulk.max_velocity(); }
-  /** Number of unknowns of velocity and pressure (bending has more in the same system). */
-  unsigned int n_unknowns() const { return space.n_unknowns(); }
+  /** Number of unknowns of velocity and pressure (extra fields have more in the same system). */
+  dealii::types::global_dof_index n_unknowns() const { return space.n_unknowns(); }
   /** Net flux of the boundary data that was removed. */
   double removed_boundary_flux() const { return space.removed_boundary_flux(); }
 
@@ -99,21 +83,32 @@ public:
   /** The Taylor-Hood space of interpolate(): dim velocity components, then the pressure. */
   const dealii::DoFHandler<dim> &dof_handler() const { return space.dof_handler(); }
 
+  /** The equations of the last prepare(), in blocks (FlowBlock), and their solution, ghosted. */
+  const LinearSystem &linear_system() const { return system; }
+  const LinearSystem::Vector &unknowns() const { return solution; }
+
 private:
+  /** Numbers all unknowns, and adds the elements of flow and extra fields. */
+  void set_up_system();
+  FlowTermContext<dim> context(unsigned int term);
+  /** Adds the flow of the unit force, as much of it as its term asks for. */
+  void add_unit_force_flow(unsigned int term, const LinearSystem::Vector &unit_force,
+                           const LinearSystem::Vector &unit_flow);
+
   double capillary_number;
   UnfittedStokesSpace<dim> space;
   StokesAssembler<dim> assembler;
-  ElementSystem system;
-  MembraneForce<dim> force;
+  LinearSystem system;
+  InterfaceVelocity<dim> interface_velocity;
   StokesSolution<dim> bulk;
   const CutGeometry<dim> *geometry = nullptr;
-  const SemiImplicitTension<dim> *semi_implicit = nullptr;
-  const SemiImplicitBending<dim> *semi_implicit_bending = nullptr;
+  Terms terms;
+  std::vector<std::unique_ptr<ExtraField<dim>>> extra_fields; ///< by term; nullptr: none
 
-  std::vector<double> rhs; ///< what does not depend on the tension
-  std::vector<MembraneVelocity<dim>> velocity, unit_tension_velocity;
+  LinearSystem::Vector wall_right_side; ///< what velocities at the walls contribute
+  LinearSystem::Vector solution;
+  std::vector<MembraneVelocity<dim>> velocity;
   double rate = 0.;
-  double penalty_tension = 0.;
   double work = 0.;
   double flux = 0.;
 };

@@ -18,9 +18,9 @@
 namespace Gemmule
 {
 /**
- * Velocity-pressure pairs Q2-Q1 of both fluids on one mesh (design section 2): one Taylor-Hood DoFHandler, of
- * whose dofs each fluid has its own copy, active on the cells that the fluid touches. The unknowns of the
- * inside fluid come first in the reduced system, then those of the outside fluid.
+ * Velocity-pressure pairs Q2-Q1 of both fluids on one mesh (doc/method-flow.md, "Spaces"): one Taylor-Hood
+ * DoFHandler, of whose dofs each fluid has its own copy, active on the cells that the fluid touches. Each
+ * fluid is a field of two parts, velocity and pressure (FlowBlock).
  *
  * The pressure is fixed up to the one constant by a zero at the lower corner of the box.
  */
@@ -46,8 +46,13 @@ public:
   const dealii::AffineConstraints<double> &hanging_node_constraints() const { return hanging_nodes; }
   const ActiveDofs<dim> &active_dofs(unsigned int fluid) const { return active[fluid]; }
 
-  /** Unknowns of both fluids on all ranks. */
-  unsigned int n_unknowns() const { return active[1].end(); }
+  /** Velocities and pressures of both fluids on all ranks. */
+  dealii::types::global_dof_index n_unknowns() const { return active[0].size() + active[1].size(); }
+
+  /** Adds the two fluids as the first fields of a system. */
+  void add_fields(BlockNumbering &numbering) const;
+  /** Lets active_dofs() have the numbers of that system, which is closed now. */
+  void renumber(const BlockNumbering &numbering);
 
   /** Locally owned cells by active_cell_index, in the order of the mesh. */
   const std::vector<unsigned int> &owned_cells() const { return owned; }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include <gemmule/algebra/element_system.h>
+#include <gemmule/algebra/linear_system.h>
 #include <gemmule/model/membrane_model.h>
 #include <gemmule/surface/surface_step.h>
 
@@ -63,7 +63,7 @@ private:
   using PointValues = MembranePointValues;
 
   void assemble_matrix(const TraceSpace<dim> &space, const SurfaceStep<dim> &step);
-  std::vector<double> assemble_rhs(const TraceSpace<dim> &space, const SurfaceStep<dim> &step) const;
+  LinearSystem::Vector assemble_rhs(const TraceSpace<dim> &space, const SurfaceStep<dim> &step) const;
   /** Linearises the local chemical potential about the present f at the points. */
   void linearise();
   /** Takes f at the points from @p field, and returns the linearisation error and the magnitude it compares
@@ -73,7 +73,7 @@ private:
   const MembraneModel &model;
   const Parameters::Surface &parameters;
   MPI_Comm communicator;
-  ElementSystem system;
+  LinearSystem system;
   TraceField<dim> f, mu;
   unsigned int n_iterations = 0;
 

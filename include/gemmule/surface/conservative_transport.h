@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include <gemmule/algebra/element_system.h>
+#include <gemmule/algebra/linear_system.h>
 #include <gemmule/surface/total_concentration.h>
 
 namespace Gemmule
@@ -27,6 +27,6 @@ public:
 
 private:
   double diffusion, stabilisation;
-  ElementSystem system;
+  LinearSystem system;
 };
 } // namespace Gemmule

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include <gemmule/algebra/element_system.h>
+#include <gemmule/algebra/linear_system.h>
 #include <gemmule/model/bending_model.h>
 #include <gemmule/surface/trace_space.h>
+
+#include <memory>
 
 namespace Gemmule
 {
@@ -64,14 +66,17 @@ public:
 
   /** The space of curvature and moment on the cut cells. */
   const TraceSpace<dim> &trace_space() const { return space; }
+  /** The same, for those that outlive this. */
+  std::shared_ptr<const TraceSpace<dim>> shared_trace_space() const { return shared_space; }
   const BendingModel &get_model() const { return model; }
 
 private:
   void assemble_mass_matrix();
 
   const BendingModel &model;
-  TraceSpace<dim> space;
-  ElementSystem system;
+  const std::shared_ptr<TraceSpace<dim>> shared_space;
+  TraceSpace<dim> &space;
+  LinearSystem system;
   PointValues curvature_at_points, moments, energies;
   TraceField<dim> moment_field;
   double total_energy = 0., numerical_rigidity = 0.;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include <gemmule/algebra/element_system.h>
+#include <gemmule/algebra/linear_system.h>
 #include <gemmule/surface/total_concentration.h>
 
 namespace Gemmule
@@ -43,7 +43,7 @@ private:
   void restore_mass(const TraceSpace<dim> &space, const MembraneCloud<dim> &previous, TraceField<dim> &field);
 
   double smoothing, stabilisation;
-  ElementSystem system;
+  LinearSystem system;
   double shift = 0.;
 };
 } // namespace Gemmule

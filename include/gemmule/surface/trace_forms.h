@@ -8,7 +8,7 @@
 
 namespace Gemmule
 {
-class ElementSystem;
+class LinearSystem;
 template <int dim>
 struct MembraneCloud;
 
@@ -55,7 +55,7 @@ public:
 /** Sizes @p system for @p n_fields trace fields, stacked one after the other, with one element per cell of
  * the active mesh. */
 template <int dim>
-void begin_system(const TraceSpace<dim> &space, unsigned int n_fields, ElementSystem &system);
+void begin_system(const TraceSpace<dim> &space, unsigned int n_fields, LinearSystem &system);
 
 /** matrix = int_membrane y v + h int_active (n.grad y)(n.grad v), the part of one cell of the active mesh. */
 template <int dim>

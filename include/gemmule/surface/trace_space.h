@@ -2,6 +2,7 @@
 #pragma once
 
 #include <gemmule/algebra/active_dofs.h>
+#include <gemmule/algebra/linear_system.h>
 #include <gemmule/mesh/cell_locator.h>
 #include <gemmule/surface/surface_step.h>
 
@@ -85,9 +86,15 @@ public:
 
   /** Unknowns of one field, on all ranks. */
   unsigned int n_unknowns() const { return active_dofs.size(); }
+  /** How those unknowns are distributed. */
+  const UnknownPartition &partition() const { return active_dofs.partition(); }
 
-  /** Nodal values on the cut cells of the field with unknowns first, first + 1, ... of @p solution. */
-  TraceField<dim> extract(const std::vector<double> &solution, unsigned int first = 0) const;
+  /**
+   * Nodal values on the cut cells of one field of a solution, ghosted, of a system in which element k has the
+   * unknowns of cell k of the active mesh, of one field after the other (begin_system()).
+   */
+  TraceField<dim> extract(const LinearSystem &system, const LinearSystem::Vector &solution,
+                          unsigned int field = 0) const;
 
   MPI_Comm communicator() const { return dof_handler.get_communicator(); }
 
