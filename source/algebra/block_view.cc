@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <gemmule/algebra/block_view.h>
 
-#include <deal.II/lac/trilinos_sparsity_pattern.h>
+#include <deal.II/lac/block_sparsity_pattern.h>
 
 namespace Gemmule
 {
 using namespace dealii;
 
-BlockView::BlockView(const LinearSystem &system) : numbering(system.numbering())
+BlockView::BlockView(const SubassembledMatrix &matrix, const BlockNumbering &numbering) : numbering(numbering)
 {
-  const SubassembledMatrix &matrix = system.matrix();
   const auto &partitioner = *matrix.partitioner();
   // Of each local row, ghosts included, block and number in it.
   std::vector<std::pair<unsigned int, BlockNumbering::Index>> place(matrix.n_rows());

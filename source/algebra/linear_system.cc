@@ -97,6 +97,7 @@ void LinearSystem::add_inhomogeneity(const unsigned int e, const FullMatrix<doub
 
 void LinearSystem::add_right_side(const unsigned int e, const double *const local, Vector &right_side) const
 {
+  Assert(right_side.get_partitioner() == partitioner, ExcMessage("The vector is one of an earlier pattern."));
   const CondensedIndices &element = elements[e];
   double *const values = right_side.get_values();
   for (unsigned int i = 0; i < element.n_local(); ++i)
@@ -107,6 +108,8 @@ void LinearSystem::add_right_side(const unsigned int e, const double *const loca
 void LinearSystem::gather(const unsigned int e, const Vector &solution, double *const local,
                           const bool homogeneous) const
 {
+  Assert(solution.get_partitioner()->is_compatible(*partitioner),
+         ExcMessage("The vector is one of an earlier pattern."));
   const CondensedIndices &element = elements[e];
   const double *const values = solution.get_values();
   for (unsigned int i = 0; i < element.n_local(); ++i)
@@ -136,7 +139,9 @@ LinearSystem::Vector LinearSystem::solve(Vector right_side)
   right_sides.push_back(std::move(right_side));
   solutions.push_back(make_vector());
   solve(right_sides, solutions);
-  return solutions[0];
+  Vector solution;
+  solution.swap(solutions[0]); // a copy would not have the ghosts
+  return solution;
 }
 
 LinearSystem::Vector LinearSystem::vmult(const Vector &x) const

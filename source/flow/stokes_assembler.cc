@@ -25,13 +25,12 @@ void StokesAssembler<dim>::add_elements(const CutGeometry<dim> &geometry, Linear
 }
 
 template <int dim>
-LinearSystem::Vector StokesAssembler<dim>::assemble(const CutGeometry<dim> &geometry, LinearSystem &system)
+void StokesAssembler<dim>::assemble(const CutGeometry<dim> &geometry, LinearSystem &system,
+                                    LinearSystem::Vector &right_side)
 {
-  auto rhs = system.make_vector();
   system.zero_matrix();
-  add_cell_matrices(geometry, system, rhs);
-  add_face_matrices(system, rhs);
-  return rhs;
+  add_cell_matrices(geometry, system, right_side);
+  add_face_matrices(system, right_side);
 }
 
 template <int dim>

@@ -64,7 +64,8 @@ void StokesSolver<dim>::prepare(const CutGeometry<dim> &new_geometry, const Func
   terms = new_terms;
   space.reinit(*geometry, boundary_velocity);
   set_up_system();
-  wall_right_side = assembler.assemble(*geometry, system);
+  system.reinit(wall_right_side);
+  assembler.assemble(*geometry, system, wall_right_side);
   interface_velocity.reinit(*geometry);
   interface_velocity.connect(assembler.fluids(), assembler.cut_cell_elements());
   for (unsigned int t = 0; t < terms.size(); ++t)
@@ -77,25 +78,22 @@ template <int dim>
 void StokesSolver<dim>::solve()
 {
   Assert(geometry != nullptr, ExcMessage("prepare() must be called before solve()."));
-  std::vector<LinearSystem::Vector> right_sides{wall_right_side};
   unsigned int with_unit_force = terms.size();
   for (unsigned int t = 0; t < terms.size(); ++t)
-  {
-    terms[t]->add_right_side(context(t), right_sides[0]);
     if (terms[t]->has_unit_force())
     {
       Assert(with_unit_force == terms.size(), ExcMessage("At most one term may have a unit force."));
       with_unit_force = t;
     }
-  }
+  std::vector<LinearSystem::Vector> right_sides(with_unit_force < terms.size() ? 2 : 1, system.make_vector());
+  right_sides[0] = wall_right_side;
+  for (unsigned int t = 0; t < terms.size(); ++t)
+    terms[t]->add_right_side(context(t), right_sides[0]);
   if (with_unit_force < terms.size())
-  {
-    right_sides.push_back(system.make_vector());
     terms[with_unit_force]->add_unit_force(context(with_unit_force), right_sides[1]);
-  }
   std::vector<LinearSystem::Vector> solutions(right_sides.size(), system.make_vector());
   system.solve(right_sides, solutions);
-  solution = std::move(solutions[0]);
+  solution.swap(solutions[0]); // a copy would not have the ghosts
   if (with_unit_force < terms.size())
     add_unit_force_flow(with_unit_force, right_sides[1], solutions[1]);
 

@@ -20,7 +20,8 @@ public:
   using BlockVector = dealii::TrilinosWrappers::MPI::BlockVector;
 
   /** Collective. */
-  explicit BlockView(const LinearSystem &system);
+  explicit BlockView(const LinearSystem &system) : BlockView(system.matrix(), system.numbering()) {}
+  BlockView(const SubassembledMatrix &matrix, const BlockNumbering &numbering);
 
   const dealii::TrilinosWrappers::BlockSparseMatrix &matrix() const { return blocks; }
   unsigned int n_blocks() const { return numbering.n_blocks(); }

@@ -46,9 +46,11 @@ public:
    */
   void add_elements(const CutGeometry<dim> &geometry, LinearSystem &system);
 
-  /** Sets the matrix to that of the flow. @return right side due to the velocity on the boundary: this rank's
-   * part */
-  LinearSystem::Vector assemble(const CutGeometry<dim> &geometry, LinearSystem &system);
+  /**
+   * Sets the matrix to that of the flow.
+   * @param right_side of the system: gets what velocities at the walls contribute, this rank's part
+   */
+  void assemble(const CutGeometry<dim> &geometry, LinearSystem &system, LinearSystem::Vector &right_side);
 
   /** Elements of all locally owned cells in the order of the mesh. */
   const std::vector<StokesCellElement> &cell_elements() const { return cells; }
