@@ -60,7 +60,7 @@ CoupledSystem<dim>::CoupledSystem(const AllParameters &parameters_, const MPI_Co
           }()),
       // Without the communicator: with it, every exception would be preceded by a banner on the screen.
       timer_output(std::cout, TimerOutput::never, TimerOutput::cpu_and_wall_times),
-      model(parameters.membrane, parameters.regularisation, parameters.bending), level_set(triangulation),
+      model(parameters.membrane, parameters.regularisation, parameters.bending), interface(triangulation),
       membrane_flow(triangulation, parameters, model),
       adaptation(triangulation, parameters.mesh, phase_boundary_width(parameters.membrane))
 {
@@ -73,25 +73,24 @@ CoupledSystem<dim>::CoupledSystem(const AllParameters &parameters_, const MPI_Co
 template <int dim>
 void CoupledSystem<dim>::initialise()
 {
-  InitialMembrane<dim> initial(parameters, communicator);
-  initial.find(triangulation);
+  InitialMembrane<dim> initial(parameters, triangulation, interface, adaptation);
+  initial.find();
   warnings_of_initial_state = initial.warnings();
-  initial.make_mesh(triangulation, level_set, geometry, adaptation);
+  initial.make_mesh();
   // The error of the flow is known once there is a flow: it may ask for another mesh.
   for (unsigned int i = 1;; ++i)
   {
-    reinit_mesh();
-    initial.make_level_set(origin, level_set, geometry);
+    reinit_spaces();
+    initial.make_level_set();
     const MembranePointValues *const curvature = compute_curvature();
     if (surface)
-      initial.make_phases(level_set, geometry, *surface, curvature);
-    area_0 = geometry.enclosed_volume();
+      initial.make_phases(*surface, curvature);
+    area_0 = interface.geometry().enclosed_volume();
     arclength_0 = parameters.arclength.reference_arclength > 0. ? parameters.arclength.reference_arclength
-                                                                : geometry.measure();
+                                                                : interface.geometry().measure();
     solve_flow(0., parameters.time_stepping.initial_step, nullptr);
     sample_flow();
-    if (flow_samples.empty() || i == largest_number_of_initial_meshes ||
-        !initial.refine_mesh(origin, triangulation, level_set, geometry, adaptation, flow_samples))
+    if (flow_samples.empty() || i == largest_number_of_initial_meshes || !initial.refine_mesh(flow_samples))
       break;
   }
 
@@ -102,7 +101,7 @@ void CoupledSystem<dim>::initialise()
 template <int dim>
 void CoupledSystem<dim>::start_history(const double time)
 {
-  std::vector<TransportedFields<dim>> at_rest(geometry.cut_cells().size());
+  std::vector<TransportedFields<dim>> at_rest(interface.geometry().cut_cells().size());
   for (unsigned int c = 0; c < at_rest.size(); ++c)
     for (unsigned int i = 0; i < MembraneFields<dim>::n; ++i)
       at_rest[c].previous_velocity[i] = raise_degree<dim>(get_flow().membrane_velocity()[c].nodal)[i];
@@ -111,7 +110,7 @@ void CoupledSystem<dim>::start_history(const double time)
   previous = MembraneSnapshot<dim>();
   dt_previous = dt_preceding = 0.;
   resist_negative_tension();
-  current_limits = membrane_flow.time_step_limits(geometry);
+  current_limits = membrane_flow.time_step_limits(interface.geometry());
 }
 
 template <int dim>
@@ -120,7 +119,7 @@ const MembranePointValues *CoupledSystem<dim>::compute_curvature()
   if (!bending)
     return nullptr;
   TimerOutput::Scope scope(timer_output, "surface: curvature");
-  bending->compute_curvature(geometry, level_set.get_dof_handler(), level_set.values());
+  bending->compute_curvature(interface);
   return &bending->curvature();
 }
 
@@ -128,8 +127,8 @@ template <int dim>
 void CoupledSystem<dim>::solve_flow(const double time, const double dt,
                                     const CutCellVector<dim> *old_velocity)
 {
-  membrane_flow.solve(time, dt, {geometry, surface.get(), bending.get(), arclength_0}, old_velocity,
-                      timer_output);
+  membrane_flow.solve(time, dt, {interface.geometry(), surface.get(), bending.get(), arclength_0},
+                      old_velocity, timer_output);
 }
 
 template <int dim>
@@ -143,7 +142,7 @@ MembraneSnapshot<dim>
 CoupledSystem<dim>::take_snapshot(const double time,
                                   const std::vector<TransportedFields<dim>> &transported) const
 {
-  const auto &cut_cells = geometry.cut_cells();
+  const auto &cut_cells = interface.geometry().cut_cells();
   std::vector<MembraneFields<dim>> fields(cut_cells.size());
   for (unsigned int c = 0; c < cut_cells.size(); ++c)
   {
@@ -165,8 +164,8 @@ CoupledSystem<dim>::take_snapshot(const double time,
   snapshot.time = time;
   snapshot.origin = origin;
   snapshot.patches = gather_patches(cut_cells, fields, communicator);
-  snapshot.narrow_band = level_set.gather_narrow_band();
-  snapshot.cloud = gather_cloud(surface ? surface->cloud() : bare_cloud(geometry), communicator);
+  snapshot.narrow_band = interface.level_set().gather_narrow_band();
+  snapshot.cloud = gather_cloud(surface ? surface->cloud() : bare_cloud(interface.geometry()), communicator);
   return snapshot;
 }
 

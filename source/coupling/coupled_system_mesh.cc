@@ -13,36 +13,29 @@ namespace Gemmule
 {
 using namespace dealii;
 
-namespace
-{
-  // The area is corrected to this relative accuracy: round-off of its quadrature.
-  constexpr double area_tolerance = 1e-12;
-  // A step that is wrong by more than this part of the area has lost the membrane, and is no case for a
-  // correction.
-  constexpr double largest_area_error = 0.05;
-  // The area by the rules of the cut cells jumps where the division of a cell changes, by some 1e-6 on a
-  // coarse mesh. Where the area that is wanted lies in such a jump no shift has it; the next step, elsewhere,
-  // makes up for it.
-  constexpr double largest_remaining_area_error = 1e-4;
-} // namespace
-
 template <int dim>
 void CoupledSystem<dim>::reinit_mesh()
 {
   TimerOutput::Scope scope(timer_output, "mesh: degrees of freedom");
-  level_set.reinit_mesh();
+  interface.reinit_mesh();
+  reinit_spaces();
+  steps_since_remeshing = 0;
+}
+
+template <int dim>
+void CoupledSystem<dim>::reinit_spaces()
+{
   if (surface)
     surface->reinit_mesh();
   if (bending)
     bending->reinit_mesh();
   membrane_flow.reinit_mesh();
-  steps_since_remeshing = 0;
 }
 
 template <int dim>
 void CoupledSystem<dim>::check_wall() const
 {
-  if (count_wall_cells(triangulation, geometry, communicator).not_outside > 0)
+  if (count_wall_cells(triangulation, interface.geometry(), communicator).not_outside > 0)
     throw SimulationError("The membrane has reached the wall of the box. Use a larger box, or end earlier.");
 }
 
@@ -52,7 +45,7 @@ void CoupledSystem<dim>::check_refined_cells() const
   const double allowed =
       (1. + 1e-10) * parameters.domain.cell_size(adaptation.limited(parameters.mesh.membrane_level));
   double largest = 0.;
-  for (const auto &cell : geometry.cut_cells())
+  for (const auto &cell : interface.geometry().cut_cells())
     largest = std::max(largest, cell.size);
   if (Utilities::MPI::max(largest, communicator) > allowed)
     throw StepBreakdown("The membrane has left the refined cells around it: the step is too long.");
@@ -141,43 +134,32 @@ void CoupledSystem<dim>::adapt_mesh(const MembraneProjection<dim> &membrane,
 }
 
 template <int dim>
-void CoupledSystem<dim>::cut_mesh(const bool keep_area)
+void CoupledSystem<dim>::check_cut_cells() const
 {
-  TimerOutput::Scope scope(timer_output, "geometry: cut cells");
-  geometry.reinit(level_set.get_dof_handler(), level_set.values());
-  check_wall();
-  check_refined_cells();
-  last_area_correction = 0.;
-  // Newton's method: a shift by s changes the area by -s L.
-  for (unsigned int i = 0; keep_area && i < 8; ++i)
-  {
-    const double excess = geometry.enclosed_volume() - area_0;
-    if (geometry.measure() == 0.)
-      throw StepBreakdown("The membrane has vanished: no cell of the mesh is cut by it any more.");
-    if (std::abs(excess) < area_tolerance * area_0)
-      break;
-    if (std::abs(excess) > largest_area_error * area_0)
-      throw StepBreakdown(
-          "The enclosed area changes by more than 5 % in one time step: the step is too long.");
-    const double shift = excess / geometry.measure();
-    level_set.shift(shift);
-    last_area_correction += shift;
-    geometry.reinit(level_set.get_dof_handler(), level_set.values());
-  }
-  if (last_area_correction == 0.)
-    return;
-  if (std::abs(geometry.enclosed_volume() - area_0) > largest_remaining_area_error * area_0)
-    throw StepBreakdown("The enclosed area cannot be made that of the beginning: the step is too long.");
   check_wall();
   check_refined_cells();
 }
 
+template <int dim>
+void CoupledSystem<dim>::cut_mesh()
+{
+  TimerOutput::Scope scope(timer_output, "geometry: cut cells");
+  last_area_correction = 0.;
+  interface.cut();
+  check_cut_cells();
+  last_area_correction = interface.shift_to_volume(area_0);
+  if (last_area_correction != 0.)
+    check_cut_cells();
+}
+
 template void CoupledSystem<2>::reinit_mesh();
 template void CoupledSystem<3>::reinit_mesh();
+template void CoupledSystem<2>::reinit_spaces();
+template void CoupledSystem<3>::reinit_spaces();
 template void CoupledSystem<2>::sample_flow();
 template void CoupledSystem<3>::sample_flow();
 template void CoupledSystem<2>::adapt_mesh(const MembraneProjection<2> &, const MembraneMotion<2> *);
 template void CoupledSystem<3>::adapt_mesh(const MembraneProjection<3> &, const MembraneMotion<3> *);
-template void CoupledSystem<2>::cut_mesh(bool);
-template void CoupledSystem<3>::cut_mesh(bool);
+template void CoupledSystem<2>::cut_mesh();
+template void CoupledSystem<3>::cut_mesh();
 } // namespace Gemmule

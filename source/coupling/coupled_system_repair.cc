@@ -42,7 +42,7 @@ RepairReport CoupledSystem<dim>::repair_membrane()
   {
     arclength_0 = old_reference;
     // They may belong to a shape that is to be forgotten.
-    level_set.forget_far_nodes();
+    interface.forget_far_nodes();
     throw;
   }
 }
@@ -50,6 +50,7 @@ RepairReport CoupledSystem<dim>::repair_membrane()
 template <int dim>
 RepairReport CoupledSystem<dim>::begin_from_repaired_membrane()
 {
+  const CutGeometry<dim> &geometry = interface.geometry();
   const MembraneProjection<dim> old_membrane(current.patches, origin);
   RepairReport report;
   {
@@ -58,8 +59,7 @@ RepairReport CoupledSystem<dim>::begin_from_repaired_membrane()
     const auto remove = [&](const double radius)
     {
       report.radius = radius * cell_size;
-      report.arclength_before =
-          remove_small_features(current, report.radius, level_set, geometry, communicator);
+      report.arclength_before = remove_small_features(current, report.radius, interface, communicator);
     };
     for (unsigned int i = 0; i < repair_radii.size(); ++i)
     {
@@ -74,7 +74,7 @@ RepairReport CoupledSystem<dim>::begin_from_repaired_membrane()
         break;
     }
   }
-  cut_mesh(true);
+  cut_mesh();
   report.arclength_after = geometry.measure();
   const MembranePointValues *const curvature = compute_curvature();
   if (surface)
@@ -87,8 +87,7 @@ RepairReport CoupledSystem<dim>::begin_from_repaired_membrane()
       const double mass = std::inner_product(weights.begin(), weights.end(), densities.begin(), 0.);
       return RepairedConcentration<dim>(old_membrane, field, mass, geometry, points, communicator);
     };
-    surface->initialise(geometry, level_set.get_dof_handler(), level_set.values(),
-                        carry_over(&Fields::concentration, current.cloud.concentration),
+    surface->initialise(interface, carry_over(&Fields::concentration, current.cloud.concentration),
                         carry_over(&Fields::total_concentration, current.cloud.total_concentration),
                         curvature);
   }

@@ -21,8 +21,8 @@ CoupledState<dim> CoupledSystem<dim>::state() const
   state.lowered_levels = adaptation.lowered_levels();
   state.n_steps_on_mesh = n_steps_on_mesh;
   state.flow_samples = flow_samples;
-  state.level_set = level_set.gather_cells();
-  state.level_set_is_set_everywhere = level_set.is_set_everywhere();
+  state.level_set = interface.level_set().gather_cells();
+  state.level_set_is_set_everywhere = interface.level_set().is_set_everywhere();
   return state;
 }
 
@@ -31,7 +31,7 @@ void CoupledSystem<dim>::restore(const CoupledState<dim> &state)
 {
   refine_to_cells(triangulation, state.mesh);
   reinit_mesh();
-  level_set.restore(state.level_set, state.level_set_is_set_everywhere);
+  interface.restore(state.level_set, state.level_set_is_set_everywhere);
   adaptation.set_lowered_levels(state.lowered_levels);
   steps_since_remeshing = state.steps_since_remeshing;
   n_steps_on_mesh = state.n_steps_on_mesh;

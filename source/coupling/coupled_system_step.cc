@@ -27,19 +27,19 @@ void CoupledSystem<dim>::move_level_set(const MembraneMotion<dim> &motion)
 {
   {
     TimerOutput::Scope scope(timer_output, "geometry: level set");
-    level_set.advance(motion, NarrowBandLevelSet<dim>(current.narrow_band, origin, &current.cloud),
-                      motion.old_membrane().distance_drift() > largest_distance_drift);
+    interface.move(motion, NarrowBandLevelSet<dim>(current.narrow_band, origin, &current.cloud),
+                   motion.old_membrane().distance_drift() > largest_distance_drift);
   }
   try
   {
-    cut_mesh(true);
-    if (!level_set.is_accurate_around(geometry))
+    cut_mesh();
+    if (!interface.is_accurate())
       throw StepBreakdown("The membrane moves by more than a cell in one time step: the step is too long.");
   }
   catch (const SimulationError &)
   {
     // Should a sign far from the membrane be wrong, it must not stay for the next try.
-    level_set.forget_far_nodes();
+    interface.forget_far_nodes();
     throw;
   }
 }
@@ -81,7 +81,7 @@ void CoupledSystem<dim>::move_membrane(const MembraneProjection<dim> &membrane, 
   // The length is predicted up to the error of the level set; where that is too large, aim differently.
   for (unsigned int i = 0; i < 3 && !fits; ++i)
   {
-    const double excess = geometry.measure() - target;
+    const double excess = interface.geometry().measure() - target;
     fits = std::abs(excess) < arclength_tolerance * arclength_0;
     if (!fits)
     {
@@ -99,7 +99,7 @@ void CoupledSystem<dim>::advance_phases(const MembraneProjection<dim> &membrane,
                                         const MembranePointValues *curvature)
 {
   using Fields = MembraneFields<dim>;
-  const auto &cut_cells = geometry.cut_cells();
+  const auto &cut_cells = interface.geometry().cut_cells();
   const unsigned int n_cells = cut_cells.size();
   const bool first = dt_previous == 0.;
   CutCellVector<dim> velocity(n_cells);
@@ -131,7 +131,7 @@ void CoupledSystem<dim>::advance_phases(const MembraneProjection<dim> &membrane,
     }
     step.predicted_total_concentration = &predicted_total;
   }
-  surface->advance(geometry, level_set.get_dof_handler(), level_set.values(), step);
+  surface->advance(interface, step);
 }
 
 template <int dim>
@@ -152,7 +152,7 @@ StepErrors CoupledSystem<dim>::try_step(const double dt)
   std::vector<TransportedFields<dim>> transported;
   {
     TimerOutput::Scope scope(timer_output, "geometry: transported fields");
-    transported = transport_fields(motion, geometry.cut_cells());
+    transported = transport_fields(motion, interface.geometry().cut_cells());
   }
   CutCellScalar<dim> predicted;
   if (surface)
@@ -167,9 +167,9 @@ StepErrors CoupledSystem<dim>::try_step(const double dt)
     old_velocity[c] = transported[c].previous_velocity;
   solve_flow(time, dt, &old_velocity);
   last_computed_time = time;
-  trial_limits = membrane_flow.time_step_limits(geometry);
+  trial_limits = membrane_flow.time_step_limits(interface.geometry());
   trial = take_snapshot(time, transported);
-  return estimate_step_errors(geometry, get_flow(), surface.get(), transported, predicted, steps,
+  return estimate_step_errors(interface.geometry(), get_flow(), surface.get(), transported, predicted, steps,
                               communicator);
 }
 

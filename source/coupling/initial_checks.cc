@@ -179,19 +179,12 @@ void InitialChecks<dim>::nothing_lost(const std::vector<LostPart<dim>> &lost) co
 }
 
 template <int dim>
-MembraneProjection<dim> InitialChecks<dim>::project(const std::vector<MembranePatch<dim>> &patches,
-                                                    const Point<dim> &origin) const
+void InitialChecks<dim>::on_mesh(const MembraneProjection<dim> *const membrane) const
 {
-  try
-  {
-    return MembraneProjection<dim>(patches, origin);
-  }
-  catch (const SimulationError &)
-  {
+  if (membrane == nullptr)
     fail_level_set("has no membrane on the mesh: what it describes is smaller than a cell. Leave it out, or "
                    "give a finer "
                    "'Mesh/Membrane level'.");
-  }
 }
 
 template <int dim>

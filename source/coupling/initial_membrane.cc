@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <gemmule/base/exceptions.h>
-#include <gemmule/coupling/initial_checks.h>
 #include <gemmule/coupling/initial_membrane.h>
 #include <gemmule/coupling/wall_cells.h>
 #include <gemmule/geometry/membrane_transport.h>
@@ -24,8 +23,10 @@ namespace
 } // namespace
 
 template <int dim>
-InitialMembrane<dim>::InitialMembrane(const AllParameters &parameters_, const MPI_Comm communicator_)
-    : parameters(parameters_), communicator(communicator_),
+InitialMembrane<dim>::InitialMembrane(const AllParameters &parameters_, Triangulation &triangulation,
+                                      Interface<dim> &interface, MeshAdaptation<dim> &adaptation)
+    : parameters(parameters_), communicator(triangulation.get_communicator()), triangulation(triangulation),
+      interface(interface), adaptation(adaptation), checks(parameters),
       shape(make_function<dim>(parameters.membrane.level_set, 1, "Membrane/Level set", false))
 {
   if (parameters.membrane.tension_model == Parameters::TensionModel::phase_field)
@@ -41,7 +42,7 @@ InitialMembrane<dim>::InitialMembrane(const AllParameters &parameters_, const MP
 }
 
 template <int dim>
-void InitialMembrane<dim>::find(const Triangulation &triangulation)
+void InitialMembrane<dim>::find()
 {
   const BoxLattice<dim> box(triangulation);
   const auto &mesh = parameters.mesh;
@@ -55,7 +56,7 @@ void InitialMembrane<dim>::find(const Triangulation &triangulation)
       *shape, [&](const Point<dim> &corner, const double size) { return bounds.on_cube(corner, size); }, box,
       {mesh.bulk_level, mesh.membrane_level, mesh.largest_level()}, mesh.largest_number_of_cells);
   const FoundMembrane<dim> found = search.search(std::move(cubes), communicator);
-  InitialChecks<dim>(parameters).found(found, shape->value(box.lower) < 0., communicator);
+  checks.found(found, shape->value(box.lower) < 0., communicator);
 
   if (found.blind_size > 0.)
     search_warnings.push_back(
@@ -71,7 +72,7 @@ void InitialMembrane<dim>::find(const Triangulation &triangulation)
 }
 
 template <int dim>
-void InitialMembrane<dim>::refine_towards_membrane(Triangulation &triangulation) const
+void InitialMembrane<dim>::refine_towards_membrane()
 {
   const BoxLattice<dim> box(triangulation);
   const unsigned int membrane_level = parameters.mesh.membrane_level;
@@ -81,7 +82,6 @@ void InitialMembrane<dim>::refine_towards_membrane(Triangulation &triangulation)
     for (unsigned int level = parameters.mesh.bulk_level; level < membrane_level; ++level)
       too_large[level].insert(box.position_of(root.point(), level));
 
-  const InitialChecks<dim> checks(parameters);
   for (unsigned int level = parameters.mesh.bulk_level; level < membrane_level; ++level)
   {
     for (const auto &cell : triangulation.active_cell_iterators())
@@ -94,20 +94,42 @@ void InitialMembrane<dim>::refine_towards_membrane(Triangulation &triangulation)
 }
 
 template <int dim>
-void InitialMembrane<dim>::cut_mesh(LevelSet<dim> &level_set, CutGeometry<dim> &geometry) const
+void InitialMembrane<dim>::cut_mesh()
 {
-  level_set.interpolate(*distance);
-  geometry.reinit(level_set.get_dof_handler(), level_set.values());
+  interface.reinit_mesh();
+  interface.interpolate(*distance);
+  interface.cut();
+  gather_patches();
 }
 
 template <int dim>
-bool InitialMembrane<dim>::refine_lost_parts(Triangulation &triangulation, const LevelSet<dim> &level_set,
-                                             const CutGeometry<dim> &geometry) const
+void InitialMembrane<dim>::gather_patches()
+{
+  projection.reset();
+  patches = gather_bare_patches(interface.geometry(), communicator);
+  try
+  {
+    projection = std::make_unique<MembraneProjection<dim>>(patches, lower_corner<dim>(parameters.domain));
+  }
+  catch (const SimulationError &)
+  {
+    // No patch has a point of the membrane, on all ranks.
+  }
+}
+
+template <int dim>
+std::vector<LostPart<dim>> InitialMembrane<dim>::lost_parts() const
+{
+  return find_lost_parts(interface, projection.get(), *distance, roots, communicator);
+}
+
+template <int dim>
+bool InitialMembrane<dim>::refine_lost_parts()
 {
   const BoxLattice<dim> box(triangulation);
   const unsigned int finest_level = parameters.mesh.largest_level();
-  const auto lost = find_lost_parts(level_set, geometry, *distance, roots, communicator);
-  InitialChecks<dim>(parameters).number_of_details(lost);
+  const auto lost = lost_parts();
+  checks.number_of_details(lost);
   std::vector<std::unordered_set<LatticeKey<dim>, LatticeKeyHash<dim>>> too_large(finest_level);
   for (const auto &part : lost)
     if (part.level < finest_level)
@@ -127,11 +149,9 @@ bool InitialMembrane<dim>::refine_lost_parts(Triangulation &triangulation, const
 }
 
 template <int dim>
-void InitialMembrane<dim>::check_sign(const Triangulation &triangulation,
-                                      const CutGeometry<dim> &geometry) const
+void InitialMembrane<dim>::check_sign() const
 {
-  const WallCells count = count_wall_cells(triangulation, geometry, communicator);
-  const InitialChecks<dim> checks(parameters);
+  const WallCells count = count_wall_cells(triangulation, interface.geometry(), communicator);
   if (count.inside == count.all)
     checks.fail_level_set(
         "is negative along all walls of the box, but has to be positive outside the vesicle. "
@@ -140,20 +160,18 @@ void InitialMembrane<dim>::check_sign(const Triangulation &triangulation,
 }
 
 template <int dim>
-void InitialMembrane<dim>::check_wall(const Triangulation &triangulation, const CutGeometry<dim> &geometry,
-                                      const unsigned int finest_level) const
+void InitialMembrane<dim>::check_wall(const unsigned int finest_level) const
 {
-  if (count_wall_cells(triangulation, geometry, communicator).not_outside == 0)
+  if (count_wall_cells(triangulation, interface.geometry(), communicator).not_outside == 0)
     return;
   const double edge = parameters.domain.cell_size(finest_level);
-  InitialChecks<dim>(parameters)
-      .fail_level_set(
-          "describes a membrane that touches a wall of the box, comes closer to it than one of the finest "
-          "cells "
-          "(edge " +
-          Parameters::to_text(edge) + " at level " + std::to_string(finest_level) +
-          ", limited by 'Mesh/Finest level' and 'Mesh/Largest number of cells'), or leaves the box. "
-          "Enlarge the box (Domain/Lower corner, Domain/Upper corner) or make the vesicle smaller.");
+  checks.fail_level_set(
+      "describes a membrane that touches a wall of the box, comes closer to it than one of the finest "
+      "cells "
+      "(edge " +
+      Parameters::to_text(edge) + " at level " + std::to_string(finest_level) +
+      ", limited by 'Mesh/Finest level' and 'Mesh/Largest number of cells'), or leaves the box. "
+      "Enlarge the box (Domain/Lower corner, Domain/Upper corner) or make the vesicle smaller.");
 }
 
 template <int dim>
@@ -167,22 +185,20 @@ void InitialMembrane<dim>::check_expressions(const std::vector<MembraneSample<di
     check_finite(*prescribed_tension, points, "Membrane/Prescribed tension");
     return;
   }
-  InitialChecks<dim>(parameters).concentrations(*concentration, *total_concentration, points);
+  checks.concentrations(*concentration, *total_concentration, points);
 }
 
 template <int dim>
-std::vector<MembraneSample<dim>> InitialMembrane<dim>::samples(const Point<dim> &origin,
-                                                               const CutGeometry<dim> &geometry) const
+std::vector<MembraneSample<dim>> InitialMembrane<dim>::samples() const
 {
-  const auto patches = gather_bare_patches(geometry, communicator);
-  const MembraneProjection<dim> membrane = InitialChecks<dim>(parameters).project(patches, origin);
+  checks.on_mesh(projection.get());
   std::vector<MembraneSample<dim>> result;
-  for (const auto &s : membrane.samples())
+  for (const auto &s : projection->samples())
   {
     MembraneSample<dim> sample;
     sample.point = s.point;
     sample.normal = s.normal;
-    sample.curvature = membrane.curvature(s);
+    sample.curvature = projection->curvature(s);
     if (concentration)
       sample.composition = concentration->value(s.point) / total_concentration->value(s.point);
     result.push_back(sample);
@@ -191,73 +207,59 @@ std::vector<MembraneSample<dim>> InitialMembrane<dim>::samples(const Point<dim> 
 }
 
 template <int dim>
-void InitialMembrane<dim>::make_mesh(Triangulation &triangulation, LevelSet<dim> &level_set,
-                                     CutGeometry<dim> &geometry, MeshAdaptation<dim> &adaptation,
-                                     const std::vector<CellSample<dim>> &cells) const
+void InitialMembrane<dim>::make_mesh(const std::vector<CellSample<dim>> &cells)
 {
-  refine_towards_membrane(triangulation);
-  level_set.reinit_mesh();
-  cut_mesh(level_set, geometry);
-  while (refine_lost_parts(triangulation, level_set, geometry))
-  {
-    level_set.reinit_mesh();
-    cut_mesh(level_set, geometry);
-  }
+  refine_towards_membrane();
+  do
+    cut_mesh();
+  while (refine_lost_parts());
   // Before the criteria refine towards the wall what is wrong anyway.
-  check_sign(triangulation, geometry);
-  InitialChecks<dim>(parameters).walls(*shape);
+  check_sign();
+  checks.walls(*shape);
   for (unsigned int sweep = 0; sweep < largest_number_of_sweeps; ++sweep)
   {
-    const auto membrane = samples(lower_corner<dim>(parameters.domain), geometry);
+    const auto membrane = samples();
     check_expressions(membrane);
     if (!adaptation.adapt(membrane, cells))
       break;
-    level_set.reinit_mesh();
-    cut_mesh(level_set, geometry);
+    cut_mesh();
   }
-  check_wall(triangulation, geometry, adaptation.limited(parameters.mesh.largest_level()));
+  check_wall(adaptation.limited(parameters.mesh.largest_level()));
 }
 
 template <int dim>
-bool InitialMembrane<dim>::refine_mesh(const Point<dim> &origin, Triangulation &triangulation,
-                                       LevelSet<dim> &level_set, CutGeometry<dim> &geometry,
-                                       MeshAdaptation<dim> &adaptation,
-                                       const std::vector<CellSample<dim>> &cells) const
+bool InitialMembrane<dim>::refine_mesh(const std::vector<CellSample<dim>> &cells)
 {
-  if (!adaptation.adapt(samples(origin, geometry), cells))
+  gather_patches(); // make_level_set() has moved the membrane
+  if (!adaptation.adapt(samples(), cells))
     return false;
-  make_mesh(triangulation, level_set, geometry, adaptation, cells);
+  make_mesh(cells);
   return true;
 }
 
 template <int dim>
-void InitialMembrane<dim>::make_level_set(const Point<dim> &origin, LevelSet<dim> &level_set,
-                                          CutGeometry<dim> &geometry) const
+void InitialMembrane<dim>::make_level_set()
 {
-  cut_mesh(level_set, geometry);
-  const InitialChecks<dim> checks(parameters);
-  checks.nothing_lost(find_lost_parts(level_set, geometry, *distance, roots, communicator));
-  const auto patches = gather_bare_patches(geometry, communicator);
-  const MembraneProjection<dim> membrane = checks.project(patches, origin);
-  checks.membrane(*distance, membrane);
+  checks.nothing_lost(lost_parts());
+  checks.on_mesh(projection.get());
+  checks.membrane(*distance, *projection);
+  const CutGeometry<dim> &geometry = interface.geometry();
   const double area = geometry.enclosed_volume(), arclength = geometry.measure();
   // The cut cells have the membrane up to an error of interpolation, the expression has it exactly.
-  level_set.set_distance(membrane,
+  interface.set_distance(*projection,
                          [&](const ClosestPoint<dim> &closest) {
                            return distance->offset(closest.point, closest.normal,
                                                    largest_offset * patches[closest.patch].size);
                          });
-  geometry.reinit(level_set.get_dof_handler(), level_set.values());
+  interface.cut();
   checks.distance(area, geometry.enclosed_volume(), arclength, geometry.measure());
 }
 
 template <int dim>
-void InitialMembrane<dim>::make_phases(const LevelSet<dim> &level_set, const CutGeometry<dim> &geometry,
-                                       SurfaceSolver<dim> &surface,
+void InitialMembrane<dim>::make_phases(SurfaceSolver<dim> &surface,
                                        const MembranePointValues *const curvature) const
 {
-  surface.initialise(geometry, level_set.get_dof_handler(), level_set.values(), *concentration,
-                     *total_concentration, curvature);
+  surface.initialise(interface, *concentration, *total_concentration, curvature);
 }
 
 template class InitialMembrane<2>;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <gemmule/base/exceptions.h>
 #include <gemmule/base/gather.h>
 #include <gemmule/coupling/lost_parts.h>
-#include <gemmule/geometry/membrane_transport.h>
 #include <gemmule/mesh/cell_locator.h>
 
 #include <cmath>
@@ -35,21 +33,6 @@ namespace
     part.cell = box.position_of_corner(corner, part.level);
     part.is_whole = is_whole;
     return part;
-  }
-
-  /** Nothing where no patch has a point of the membrane. */
-  template <int dim>
-  std::unique_ptr<MembraneProjection<dim>> projection_onto(const std::vector<MembranePatch<dim>> &patches,
-                                                           const Point<dim> &origin)
-  {
-    try
-    {
-      return std::make_unique<MembraneProjection<dim>>(patches, origin);
-    }
-    catch (const SimulationError &)
-    {
-      return nullptr;
-    }
   }
 
   /** What is lost within one cell with level set @p values; at most one place is named. */
@@ -85,42 +68,40 @@ namespace
 } // namespace
 
 template <int dim>
-std::vector<LostPart<dim>> find_lost_parts(const LevelSet<dim> &level_set, const CutGeometry<dim> &geometry,
-                                           const ZeroSetDistance<dim> &distance,
-                                           const std::vector<MembraneRoot<dim>> &roots,
-                                           const MPI_Comm communicator)
+std::vector<LostPart<dim>>
+find_lost_parts(const Interface<dim> &interface, const MembraneProjection<dim> *const membrane,
+                const ZeroSetDistance<dim> &distance, const std::vector<MembraneRoot<dim>> &roots,
+                const MPI_Comm communicator)
 {
-  const auto &dof_handler = level_set.get_dof_handler();
-  const auto patches = gather_bare_patches(geometry, communicator);
-  const BoxLattice<dim> box(dof_handler.get_triangulation());
-  const auto membrane = projection_onto(patches, box.lower);
-
+  const auto &triangulation = interface.level_set().get_dof_handler().get_triangulation();
+  const BoxLattice<dim> box(triangulation);
   CellLocator<dim> locator;
-  locator.reinit(dof_handler.get_triangulation());
+  locator.reinit(triangulation);
   std::vector<LostPart<dim>> lost;
   std::set<unsigned int> cells_at_membrane;
-  for (const CutCell<dim> &cell : geometry.cut_cells())
+  for (const CutCell<dim> &cell : interface.geometry().cut_cells())
     cells_at_membrane.insert(cell.active_cell_index);
   for (const auto &root : roots)
     if (const auto *const cell = locator.find(root.point()))
     {
       cells_at_membrane.insert(cell->active_cell_index);
-      if (!membrane || std::abs(membrane->project(root.point()).distance) > largest_distance * cell->size)
+      if (membrane == nullptr ||
+          std::abs(membrane->project(root.point()).distance) > largest_distance * cell->size)
         lost.push_back(lost_part(root.point(), box, cell->corner, cell->size, true));
       else if (distance.curvature(root.point()) * cell->size > 1. / smallest_radius ||
                distance.thinnest_layer(root.point(), thin * cell->size) < thin * cell->size)
         lost.push_back(lost_part(root.point(), box, cell->corner, cell->size, false));
     }
-  for (const auto &cell : dof_handler.active_cell_iterators())
+  for (const auto &cell : triangulation.active_cell_iterators())
     if (cell->is_locally_owned() && cells_at_membrane.count(cell->active_cell_index()) > 0)
-      find_in_cell(level_set.values_on(cell), box, distance, lost);
+      find_in_cell(interface.level_set().values_on(cell), box, distance, lost);
   return gather_plain(lost, communicator);
 }
 
 #define GEMMULE_INSTANTIATE(dim)                                                                             \
-  template std::vector<LostPart<dim>> find_lost_parts(const LevelSet<dim> &, const CutGeometry<dim> &,       \
-                                                      const ZeroSetDistance<dim> &,                          \
-                                                      const std::vector<MembraneRoot<dim>> &, MPI_Comm);
+  template std::vector<LostPart<dim>> find_lost_parts(                                                       \
+      const Interface<dim> &, const MembraneProjection<dim> *, const ZeroSetDistance<dim> &,                 \
+      const std::vector<MembraneRoot<dim>> &, MPI_Comm);
 GEMMULE_INSTANTIATE(2)
 GEMMULE_INSTANTIATE(3)
 #undef GEMMULE_INSTANTIATE

@@ -63,6 +63,7 @@ void LevelSet<dim>::reinit_mesh()
   constraints.close();
   phi.reinit(dof_handler.locally_owned_dofs(), relevant, triangulation.get_communicator());
   far_nodes_are_set = false;
+  is_in_narrow_band.clear();
 }
 
 template <int dim>
@@ -184,10 +185,12 @@ void LevelSet<dim>::advance(const MembraneMotion<dim> &motion, const NarrowBandL
 }
 
 template <int dim>
-LevelSetCell<dim> LevelSet<dim>::values_on(const typename DoFHandler<dim>::active_cell_iterator &cell) const
+LevelSetCell<dim>
+LevelSet<dim>::values_on(const typename Triangulation<dim>::active_cell_iterator &cell) const
 {
   std::vector<types::global_dof_index> dofs(fe.n_dofs_per_cell());
-  cell->get_dof_indices(dofs);
+  typename DoFHandler<dim>::active_cell_iterator(&triangulation, cell->level(), cell->index(), &dof_handler)
+      ->get_dof_indices(dofs);
   LevelSetCell<dim> result;
   result.corner = cell->vertex(0);
   result.size = cell->extent_in_direction(0);
@@ -253,6 +256,7 @@ bool LevelSet<dim>::is_accurate_around(const CutGeometry<dim> &geometry) const
 {
   const auto &cut_cells = geometry.cut_cells();
   const bool is_accurate =
+      !is_in_narrow_band.empty() &&
       std::all_of(cut_cells.begin(), cut_cells.end(),
                   [&](const auto &cell) { return is_in_narrow_band[cell.active_cell_index]; });
   return Utilities::MPI::min(static_cast<unsigned int>(is_accurate), triangulation.get_communicator()) > 0;

@@ -54,26 +54,26 @@ double largest_unresolved_cell(const MembraneProjection<dim> &membrane, const do
 
 template <int dim>
 double remove_small_features(const MembraneSnapshot<dim> &membrane, const double radius,
-                             LevelSet<dim> &level_set, CutGeometry<dim> &geometry,
-                             const MPI_Comm communicator)
+                             Interface<dim> &interface, const MPI_Comm communicator)
 {
+  const CutGeometry<dim> &geometry = interface.geometry();
   const double width = 4. * radius; // the membrane moves by twice the radius at most
-  level_set.set_distance(MembraneProjection<dim>(membrane.patches, membrane.origin),
+  interface.set_distance(MembraneProjection<dim>(membrane.patches, membrane.origin),
                          NarrowBandLevelSet<dim>(membrane.narrow_band, membrane.origin, &membrane.cloud),
                          width);
-  geometry.reinit(level_set.get_dof_handler(), level_set.values());
+  interface.cut();
   const double measure = geometry.measure();
   for (const double distance : {radius, -2. * radius, radius})
   {
-    level_set.shift(-distance);
-    geometry.reinit(level_set.get_dof_handler(), level_set.values());
+    interface.shift(-distance);
+    interface.cut();
     const auto patches = gather_bare_patches(geometry, communicator);
     const auto cloud = gather_cloud(bare_cloud(geometry), communicator);
-    const auto band = level_set.gather_narrow_band();
-    level_set.set_distance(MembraneProjection<dim>(patches, membrane.origin),
+    const auto band = interface.level_set().gather_narrow_band();
+    interface.set_distance(MembraneProjection<dim>(patches, membrane.origin),
                            NarrowBandLevelSet<dim>(band, membrane.origin, &cloud), width);
   }
-  geometry.reinit(level_set.get_dof_handler(), level_set.values());
+  interface.cut();
   return measure;
 }
 
@@ -148,8 +148,7 @@ double RepairedConcentration<dim>::value(const Point<dim> &x, const unsigned int
 
 #define GEMMULE_INSTANTIATE(dim)                                                                             \
   template double largest_unresolved_cell(const MembraneProjection<dim> &, double);                          \
-  template double remove_small_features(const MembraneSnapshot<dim> &, double, LevelSet<dim> &,              \
-                                        CutGeometry<dim> &, MPI_Comm);                                       \
+  template double remove_small_features(const MembraneSnapshot<dim> &, double, Interface<dim> &, MPI_Comm);  \
   template std::vector<Point<dim>> find_repaired_points(                                                     \
       const MembraneProjection<dim> &, const CutGeometry<dim> &, const Point<dim> &, MPI_Comm);              \
   template class RepairedConcentration<dim>;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <gemmule/geometry/membrane_snapshot.h>
+#include <gemmule/geometry/interface.h>
 #include <gemmule/surface/membrane_bending.h>
 #include <gemmule/surface/trace_forms.h>
 
@@ -40,12 +40,12 @@ void MembraneBending<dim>::assemble_mass_matrix()
 }
 
 template <int dim>
-void MembraneBending<dim>::compute_curvature(const CutGeometry<dim> &geometry,
-                                             const DoFHandler<dim> &level_set_dofs, const Vector &level_set)
+void MembraneBending<dim>::compute_curvature(const Interface<dim> &interface)
 {
+  const CutGeometry<dim> &geometry = interface.geometry();
   constexpr unsigned int n = TraceSpace<dim>::Basis::n;
   // Without clouds the active mesh consists of the cut cells.
-  space.prepare(geometry, level_set_dofs, level_set, {{nullptr, nullptr}});
+  space.prepare(interface, {{nullptr, nullptr}});
   assemble_mass_matrix();
 
   std::vector<LinearSystem::Vector> right_sides(dim, system.make_vector()),

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <gemmule/geometry/interface.h>
 #include <gemmule/geometry/membrane_snapshot.h>
 #include <gemmule/geometry/membrane_transport.h>
 #include <gemmule/model/membrane_model.h>
@@ -26,12 +27,11 @@ void SurfaceSolver<dim>::reinit_mesh()
 }
 
 template <int dim>
-void SurfaceSolver<dim>::initialise(const CutGeometry<dim> &geometry, const DoFHandler<dim> &level_set_dofs,
-                                    const Vector &level_set, const Function<dim> &concentration,
+void SurfaceSolver<dim>::initialise(const Interface<dim> &interface, const Function<dim> &concentration,
                                     const Function<dim> &total_concentration,
                                     const MembranePointValues *const curvature)
 {
-  space.prepare(geometry, level_set_dofs, level_set, {{nullptr, nullptr}});
+  space.prepare(interface, {{nullptr, nullptr}});
   const auto projection = [&](const Function<dim> &function)
   {
     return project<dim>(space,
@@ -43,16 +43,15 @@ void SurfaceSolver<dim>::initialise(const CutGeometry<dim> &geometry, const DoFH
 }
 
 template <int dim>
-void SurfaceSolver<dim>::advance(const CutGeometry<dim> &geometry, const DoFHandler<dim> &level_set_dofs,
-                                 const Vector &level_set, const SurfaceStep<dim> &step)
+void SurfaceSolver<dim>::advance(const Interface<dim> &interface, const SurfaceStep<dim> &step)
 {
   AssertThrow(step.clouds[0] && (step.bdf.order() == 1 || step.clouds[1]),
               ExcMessage("A step needs as many earlier membranes as its order."));
   AssertThrow(step.velocity && step.predicted_concentration &&
-                  step.velocity->size() == geometry.cut_cells().size() &&
-                  step.predicted_concentration->size() == geometry.cut_cells().size(),
+                  step.velocity->size() == interface.geometry().cut_cells().size() &&
+                  step.predicted_concentration->size() == interface.geometry().cut_cells().size(),
               ExcMessage("Velocity and predicted concentration must be given on every cut cell."));
-  space.prepare(geometry, level_set_dofs, level_set, step.clouds);
+  space.prepare(interface, step.clouds);
   total = transport->advance(space, step);
   phases.advance(space, step, total);
   compute_diagnostics();

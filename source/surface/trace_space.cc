@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <gemmule/base/exceptions.h>
-#include <gemmule/geometry/cut_geometry.h>
+#include <gemmule/geometry/interface.h>
 #include <gemmule/geometry/membrane_snapshot.h>
 #include <gemmule/surface/trace_space.h>
 
@@ -18,8 +18,7 @@ using namespace dealii;
 template <int dim>
 TraceSpace<dim>::TraceSpace(const Triangulation<dim> &triangulation)
     : triangulation(triangulation), fe(2), dof_handler(triangulation),
-      lexicographic(lexicographic_cell_dofs(fe)),
-      lexicographic_level_set(lexicographic_cell_dofs(FE_Q<dim>(3)))
+      lexicographic(lexicographic_cell_dofs(fe))
 {
 }
 
@@ -43,23 +42,7 @@ void TraceSpace<dim>::reinit_mesh()
 }
 
 template <int dim>
-std::array<double, TensorLagrange<dim, 3>::n>
-TraceSpace<dim>::nodal_level_set(const unsigned int active_cell_index, const DoFHandler<dim> &level_set_dofs,
-                                 const Vector &level_set) const
-{
-  const auto &cell = owned_cells[active_cell_index];
-  const typename DoFHandler<dim>::active_cell_iterator level_set_cell(&triangulation, cell->level(),
-                                                                      cell->index(), &level_set_dofs);
-  std::vector<types::global_dof_index> dofs(lexicographic_level_set.size());
-  level_set_cell->get_dof_indices(dofs);
-  std::array<double, TensorLagrange<dim, 3>::n> values;
-  for (unsigned int i = 0; i < values.size(); ++i)
-    values[i] = level_set(dofs[lexicographic_level_set[i]]);
-  return values;
-}
-
-template <int dim>
-void TraceSpace<dim>::locate_clouds(const DoFHandler<dim> &level_set_dofs, const Vector &level_set,
+void TraceSpace<dim>::locate_clouds(const Interface<dim> &interface,
                                     const std::array<const MembraneCloud<dim> *, 2> &clouds,
                                     std::vector<bool> &is_in_active_mesh)
 {
@@ -83,7 +66,10 @@ void TraceSpace<dim>::locate_clouds(const DoFHandler<dim> &level_set_dofs, const
         {
           const auto unit = cell->unit(clouds[c]->points[i]);
           if (nodal_of != cell->active_cell_index)
-            nodal = nodal_level_set(nodal_of = cell->active_cell_index, level_set_dofs, level_set);
+          {
+            nodal_of = cell->active_cell_index;
+            nodal = interface.level_set().values_on(owned_cells[nodal_of]).level_set;
+          }
           distance[k] = TensorLagrange<dim, 3>::value(nodal, unit);
           distance.back() += 1.;
           is_in_active_mesh[cell->active_cell_index] = true;
@@ -144,16 +130,16 @@ void TraceSpace<dim>::compute_normal_derivatives(
 }
 
 template <int dim>
-void TraceSpace<dim>::prepare(const CutGeometry<dim> &geometry, const DoFHandler<dim> &level_set_dofs,
-                              const Vector &level_set,
+void TraceSpace<dim>::prepare(const Interface<dim> &interface,
                               const std::array<const MembraneCloud<dim> *, 2> &clouds)
 {
   AssertDimension(owned_cells.size(), triangulation.n_active_cells());
+  const CutGeometry<dim> &geometry = interface.geometry();
   current_geometry = &geometry;
   std::vector<bool> is_in_active_mesh(triangulation.n_active_cells(), false);
   for (const auto &cut : geometry.cut_cells())
     is_in_active_mesh[cut.active_cell_index] = true;
-  locate_clouds(level_set_dofs, level_set, clouds, is_in_active_mesh);
+  locate_clouds(interface, clouds, is_in_active_mesh);
   active_dofs.reinit(dof_handler, constraints, is_in_active_mesh);
 
   cells.clear();
@@ -171,7 +157,7 @@ void TraceSpace<dim>::prepare(const CutGeometry<dim> &geometry, const DoFHandler
       trace_cell.cut = geometry.find(index);
       if (trace_cell.cut)
         trace_cell.cut_index = trace_cell.cut - geometry.cut_cells().data();
-      compute_normal_derivatives(trace_cell, nodal_level_set(index, level_set_dofs, level_set));
+      compute_normal_derivatives(trace_cell, interface.level_set().values_on(cell).level_set);
       trace_cell_of[index] = cells.size();
       cells.push_back(std::move(trace_cell));
 

@@ -122,7 +122,7 @@ TEST(ParallelBending, CircleOfSpontaneousCurvatureIsFreeOfForce)
       const BendingModel model(parameters);
       MembraneBending<2> bending(flow.mesh.triangulation, model);
       bending.reinit_mesh();
-      bending.compute_curvature(flow.geometry, flow.mesh.dof_handler, flow.mesh.level_set);
+      bending.compute_curvature(flow.interface);
       bending.compute_moment(nullptr, nullptr);
       flow.set_tension([](const Point<2> &) { return 0.; });
       flow.solve(dealii::Functions::ZeroFunction<2>(2),
@@ -169,7 +169,9 @@ TEST(ParallelBending, ForceIsTheVariationOfTheEnergyInThreeDimensions)
     LevelSetMesh<3> mesh(2);
     for (unsigned int r = 0; r < 1 + i; ++r)
       mesh.refine_where([](const Point<3> &p) { return std::abs(p.norm() - 0.5) < 0.5; });
-    mesh.interpolate(ScalarFunctionFromFunctionObject<3>(
+    Interface<3> interface(mesh.triangulation);
+    interface.reinit_mesh();
+    interface.interpolate(ScalarFunctionFromFunctionObject<3>(
         [=](const Point<3> &p)
         {
           const double r = std::sqrt((p[0] * p[0] + p[1] * p[1]) / (a * a) + p[2] * p[2] / (c * c));
@@ -177,15 +179,15 @@ TEST(ParallelBending, ForceIsTheVariationOfTheEnergyInThreeDimensions)
                  std::sqrt((p[0] * p[0] + p[1] * p[1]) / std::pow(a, 4) + p[2] * p[2] / std::pow(c, 4) +
                            1e-2);
         }));
-    CutGeometry<3> geometry;
-    geometry.reinit(mesh.dof_handler, mesh.level_set);
+    interface.cut();
+    const CutGeometry<3> &geometry = interface.geometry();
     Parameters::Bending parameters;
     parameters.rigidity_0 = 1.;
     parameters.spontaneous_curvature_0 = spontaneous;
     const BendingModel model(parameters);
     MembraneBending<3> bending(mesh.triangulation, model);
     bending.reinit_mesh();
-    bending.compute_curvature(geometry, mesh.dof_handler, mesh.level_set);
+    bending.compute_curvature(interface);
     bending.compute_moment(nullptr, nullptr);
     InterfaceVelocity<3> interface_velocity;
     interface_velocity.reinit(geometry);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Verification ladder, step 2 (design section 5): the semi-Lagrangian level set in given velocity fields.
-#include <gemmule/geometry/level_set.h>
+#include <gemmule/geometry/interface.h>
 #include <gemmule/geometry/membrane_transport.h>
 
 #include <deal.II/base/function_lib.h>
@@ -52,12 +52,12 @@ namespace
     parallel::distributed::Triangulation<2> triangulation(MPI_COMM_WORLD);
     GridGenerator::hyper_cube(triangulation, -1., 1.);
     triangulation.refine_global(level);
-    LevelSet<2> level_set(triangulation);
-    level_set.reinit_mesh();
-    level_set.interpolate(Functions::SignedDistance::Sphere<2>(center, radius));
-    CutGeometry<2> geometry;
+    Interface<2> interface(triangulation);
+    interface.reinit_mesh();
+    interface.interpolate(Functions::SignedDistance::Sphere<2>(center, radius));
+    const CutGeometry<2> &geometry = interface.geometry();
     const Point<2> origin(-1., -1.);
-    geometry.reinit(level_set.get_dof_handler(), level_set.values());
+    interface.cut();
 
     const double dt = 1. / n_steps;
     std::vector<TransportedFields<2>> transported(geometry.cut_cells().size());
@@ -73,7 +73,7 @@ namespace
           fields[c].previous_velocity[i] = transported[c].previous_velocity[i];
         }
       const auto patches = gather_patches(geometry.cut_cells(), fields, MPI_COMM_WORLD);
-      const auto band = level_set.gather_narrow_band();
+      const auto band = interface.level_set().gather_narrow_band();
       const MembraneProjection<2> projection(patches, origin);
       const MembraneMotion<2> motion(projection, dt, step == 0 ? 0. : dt);
       if (remesh_each_step)
@@ -89,10 +89,10 @@ namespace
               cell->set_coarsen_flag();
           }
         triangulation.execute_coarsening_and_refinement();
-        level_set.reinit_mesh();
+        interface.reinit_mesh();
       }
-      level_set.advance(motion, NarrowBandLevelSet<2>(band, origin), projection.distance_drift() > 0.1);
-      geometry.reinit(level_set.get_dof_handler(), level_set.values());
+      interface.move(motion, NarrowBandLevelSet<2>(band, origin), projection.distance_drift() > 0.1);
+      interface.cut();
       transported = transport_fields(motion, geometry.cut_cells());
     }
 
@@ -155,21 +155,20 @@ TEST(ParallelLevelSet, ABandHoldsTheCutCellsAndTheirNeighboursOnAnyMesh)
           static_cast<int>(7. * (cell->center()[0] + 2.) + 3.3 * i * (cell->center()[1] + 2.)) % 2 == 0)
         cell->set_refine_flag();
     triangulation.execute_coarsening_and_refinement();
-    LevelSet<2> level_set(triangulation);
-    level_set.reinit_mesh();
-    level_set.interpolate(
+    Interface<2> interface(triangulation);
+    interface.reinit_mesh();
+    interface.interpolate(
         Functions::SignedDistance::Sphere<2>(Point<2>(0.01 * i, 0.007 * i * i), 0.2 + 0.0173 * i));
-    CutGeometry<2> geometry;
-    geometry.reinit(level_set.get_dof_handler(), level_set.values());
-    const auto patches = gather_bare_patches(geometry, MPI_COMM_WORLD);
-    level_set.set_distance(MembraneProjection<2>(patches, Point<2>(-1., -1.)));
-    geometry.reinit(level_set.get_dof_handler(), level_set.values());
-    EXPECT_TRUE(level_set.is_accurate_around(geometry)) << i;
+    interface.cut();
+    const auto patches = gather_bare_patches(interface.geometry(), MPI_COMM_WORLD);
+    interface.set_distance(MembraneProjection<2>(patches, Point<2>(-1., -1.)));
+    interface.cut();
+    EXPECT_TRUE(interface.is_accurate()) << i;
     // A membrane four cells away is another matter.
-    level_set.interpolate(
+    interface.interpolate(
         Functions::SignedDistance::Sphere<2>(Point<2>(0.01 * i, 0.007 * i * i), 0.7 + 0.0173 * i));
-    geometry.reinit(level_set.get_dof_handler(), level_set.values());
-    EXPECT_FALSE(level_set.is_accurate_around(geometry)) << i;
+    interface.cut();
+    EXPECT_FALSE(interface.is_accurate()) << i;
   }
 }
 

@@ -80,7 +80,7 @@ TraceField<2> transport(SurfaceHarness &harness, const Motion &motion, const uns
     step.bdf = BdfCoefficients::second_order(1.);
     step.clouds = {{&newer, &older}};
     step.velocity = &velocity;
-    space.prepare(harness.geometry, harness.mesh.dof_handler, harness.mesh.level_set, step.clouds);
+    space.prepare(harness.interface, step.clouds);
     field = scheme.advance(space, step);
     older = std::move(newer);
     newer = harness.cloud(field);
@@ -175,7 +175,7 @@ TEST(ParallelUpdateSmoothing, ModesDecayAsTheory)
       harness.set_membrane(EllipseDistance({}, radius, radius));
       TraceSpace<2> space(harness.mesh.triangulation);
       space.reinit_mesh();
-      space.prepare(harness.geometry, harness.mesh.dof_handler, harness.mesh.level_set, {{nullptr, nullptr}});
+      space.prepare(harness.interface, {{nullptr, nullptr}});
       std::vector<std::vector<double>> source;
       const auto mode = [&](const Point<2> &x) { return std::cos(k * std::atan2(x[1], x[0])); };
       for (const auto &cell : harness.geometry.cut_cells())
@@ -259,7 +259,7 @@ TEST(SurfaceTransport, UpdateWithoutSmoothingTransports)
     step.velocity = &velocity;
     step.predicted_total_concentration = &predicted;
     step.extended_total_concentration = {{&newer, &older}};
-    space.prepare(harness.geometry, harness.mesh.dof_handler, harness.mesh.level_set, step.clouds);
+    space.prepare(harness.interface, step.clouds);
     const auto field = scheme.advance(space, step);
     errors.push_back(harness.l2_error(field, at(t)));
     table.add_value("steps", n_steps);

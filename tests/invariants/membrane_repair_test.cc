@@ -22,21 +22,21 @@ double error_on_a_circle(const unsigned int level)
 {
   const double radius = 0.45, h = 2. / (1 << level);
   LevelSetMesh<2> mesh(level);
-  LevelSet<2> level_set(mesh.triangulation);
-  level_set.reinit_mesh();
-  level_set.interpolate(ScalarFunctionFromFunctionObject<2>(
+  Interface<2> interface(mesh.triangulation);
+  interface.reinit_mesh();
+  interface.interpolate(ScalarFunctionFromFunctionObject<2>(
       [=](const Point<2> &x) { return x.distance(Point<2>(0.03, 0.01)) - radius; }));
-  CutGeometry<2> geometry;
-  geometry.reinit(level_set.get_dof_handler(), level_set.values());
+  interface.cut();
+  const CutGeometry<2> &geometry = interface.geometry();
   MembraneSnapshot<2> membrane;
   membrane.origin = Point<2>(-1., -1.);
   membrane.patches = gather_bare_patches(geometry, MPI_COMM_WORLD);
-  level_set.set_distance(MembraneProjection<2>(membrane.patches, membrane.origin));
-  membrane.narrow_band = level_set.gather_narrow_band();
+  interface.set_distance(MembraneProjection<2>(membrane.patches, membrane.origin));
+  membrane.narrow_band = interface.level_set().gather_narrow_band();
   membrane.cloud = gather_cloud(bare_cloud(geometry), MPI_COMM_WORLD);
   EXPECT_EQ(largest_unresolved_cell(MembraneProjection<2>(membrane.patches, membrane.origin), 1.), 0.);
 
-  const double arclength = remove_small_features(membrane, 0.75 * h, level_set, geometry, MPI_COMM_WORLD);
+  const double arclength = remove_small_features(membrane, 0.75 * h, interface, MPI_COMM_WORLD);
   EXPECT_NEAR(arclength, 2. * numbers::PI * radius, 1e-3);
   double error = 0.;
   for (const auto &cell : geometry.cut_cells())

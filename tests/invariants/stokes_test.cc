@@ -95,8 +95,7 @@ TEST(ParallelStokesInvariants, ArclengthPenaltyActsAtTheEndOfTheStep)
   const double dt = 0.01, excess = 2e-3;
   FlowOnCircle<2> flow(5, Point<2>(0.013, 0.007));
   flow.set_tension(stretching_tension);
-  flow.mesh.interpolate(Functions::SignedDistance::Ellipsoid<2>(flow.center, {{0.5, 0.35}}));
-  flow.geometry.reinit(flow.mesh.dof_handler, flow.mesh.level_set);
+  flow.set_membrane(Functions::SignedDistance::Ellipsoid<2>(flow.center, {{0.5, 0.35}}));
   flow.set_tension(stretching_tension);
   const Functions::ZeroFunction<2> walls_at_rest(2);
 

@@ -29,7 +29,7 @@ struct BendingOnCurve
   void set_membrane(const Function<2> &distance)
   {
     harness.set_membrane(distance);
-    bending.compute_curvature(harness.geometry, harness.mesh.dof_handler, harness.mesh.level_set);
+    bending.compute_curvature(harness.interface);
     interface_velocity.reinit(harness.geometry);
   }
 

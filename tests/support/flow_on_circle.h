@@ -3,6 +3,7 @@
 
 #include <gemmule/flow/stokes_solver.h>
 #include <gemmule/flow/tension_force.h>
+#include <gemmule/geometry/interface.h>
 #include <gemmule/parameters/discretisation.h>
 #include <gemmule/parameters/fluid.h>
 
@@ -24,20 +25,27 @@ struct FlowOnCircle
   LevelSetMesh<dim> mesh;
   Point<dim> center;
   Parameters::Fluid fluid;
-  CutGeometry<dim> geometry;
+  Interface<dim> interface;
+  const CutGeometry<dim> &geometry;
   StokesSolver<dim> solver;
   MembranePointValues tension;
 
   FlowOnCircle(const unsigned int level, const Point<dim> &center, const double viscosity_ratio = 1.,
                const std::function<bool(const Point<dim> &)> &refine = {}, const double capillary_number = 1.)
-      : mesh(level), center(center), fluid{capillary_number, viscosity_ratio},
-        solver(mesh.triangulation, fluid, Parameters::Flow())
+      : mesh(level), center(center), fluid{capillary_number, viscosity_ratio}, interface(mesh.triangulation),
+        geometry(interface.geometry()), solver(mesh.triangulation, fluid, Parameters::Flow())
   {
     if (refine)
       mesh.refine_where(refine);
-    mesh.interpolate(Functions::SignedDistance::Sphere<dim>(center, radius));
-    geometry.reinit(mesh.dof_handler, mesh.level_set);
+    set_membrane(Functions::SignedDistance::Sphere<dim>(center, radius));
     solver.reinit_mesh();
+  }
+
+  void set_membrane(const Function<dim> &distance)
+  {
+    interface.reinit_mesh();
+    interface.interpolate(distance);
+    interface.cut();
   }
 
   void set_tension(const std::function<double(const Point<dim> &)> &sigma)

@@ -39,7 +39,7 @@ public:
   {
     harness.set_membrane(distance(time));
     const ScalarFunctionFromFunctionObject<2> f(concentration), total(total_concentration);
-    solver.initialise(harness.geometry, harness.mesh.dof_handler, harness.mesh.level_set, f, total);
+    solver.initialise(harness.interface, f, total);
     clouds[0] = SurfaceHarness::gather(solver.cloud());
     prediction = concentration;
   }
@@ -58,7 +58,7 @@ public:
     const auto f = harness.scalar(prediction);
     step.velocity = &u;
     step.predicted_concentration = &f;
-    solver.advance(harness.geometry, harness.mesh.dof_handler, harness.mesh.level_set, step);
+    solver.advance(harness.interface, step);
     clouds[1] = std::move(clouds[0]);
     clouds[0] = SurfaceHarness::gather(solver.cloud());
     last_step = time_step;

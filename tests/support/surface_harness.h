@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include <gemmule/geometry/cut_geometry.h>
+#include <gemmule/geometry/interface.h>
 #include <gemmule/geometry/membrane_snapshot.h>
 #include <gemmule/surface/surface_step.h>
 
@@ -22,14 +22,19 @@ struct SurfaceHarness
   using VectorField = std::function<Tensor<1, 2>(const Point<2> &)>;
 
   LevelSetMesh<2> mesh;
-  CutGeometry<2> geometry;
+  Interface<2> interface;
+  const CutGeometry<2> &geometry;
 
-  explicit SurfaceHarness(const unsigned int level) : mesh(level) {}
+  explicit SurfaceHarness(const unsigned int level)
+      : mesh(level), interface(mesh.triangulation), geometry(interface.geometry())
+  {
+  }
 
   void set_membrane(const Function<2> &distance)
   {
-    mesh.interpolate(distance);
-    geometry.reinit(mesh.dof_handler, mesh.level_set);
+    interface.reinit_mesh();
+    interface.interpolate(distance);
+    interface.cut();
   }
 
   CutCellScalar<2> scalar(const Field &field) const

@@ -4,8 +4,7 @@
 #include <gemmule/coupling/coupled_state.h>
 #include <gemmule/coupling/membrane_flow.h>
 #include <gemmule/coupling/step_errors.h>
-#include <gemmule/geometry/cut_geometry.h>
-#include <gemmule/geometry/level_set.h>
+#include <gemmule/geometry/interface.h>
 #include <gemmule/geometry/membrane_snapshot.h>
 #include <gemmule/geometry/membrane_transport.h>
 #include <gemmule/mesh/mesh_adaptation.h>
@@ -93,8 +92,8 @@ public:
   // What the last state that was computed is like, for output.
   const AllParameters &get_parameters() const { return parameters; }
   const Triangulation &mesh() const { return triangulation; }
-  const LevelSet<dim> &get_level_set() const { return level_set; }
-  const CutGeometry<dim> &get_geometry() const { return geometry; }
+  const LevelSet<dim> &get_level_set() const { return interface.level_set(); }
+  const CutGeometry<dim> &get_geometry() const { return interface.geometry(); }
   /** nullptr with a prescribed tension. */
   const SurfaceSolver<dim> *get_surface() const { return surface.get(); }
   /** nullptr as long as the membrane does not resist bending, also not on the grid scale. */
@@ -115,12 +114,18 @@ public:
   dealii::TimerOutput &timer() { return timer_output; }
 
 private:
+  /** After a change of the mesh. */
   void reinit_mesh();
+  /** The part of it without the interface. */
+  void reinit_spaces();
   /** Samples of the current membrane, at its predicted position if there is a motion. */
   std::vector<MembraneSample<dim>> samples(const MembraneProjection<dim> &membrane,
                                            const MembraneMotion<dim> *motion) const;
   void adapt_mesh(const MembraneProjection<dim> &membrane, const MembraneMotion<dim> *motion);
-  void cut_mesh(bool keep_area);
+  /** Cut cells of the present level set, with the area of the beginning. */
+  void cut_mesh();
+  /** Throws SimulationError where the membrane may not be. */
+  void check_cut_cells() const;
 
   void check_wall() const;
   /** Curvature for the bending energy at the quadrature points of the cut mesh; nullptr without bending. */
@@ -163,8 +168,7 @@ private:
   dealii::TimerOutput timer_output;
 
   MembraneModel model;
-  LevelSet<dim> level_set;
-  CutGeometry<dim> geometry;
+  Interface<dim> interface;
   std::unique_ptr<SurfaceSolver<dim>> surface;
   std::unique_ptr<MembraneBending<dim>> bending; ///< nullptr without bending
   MembraneFlow<dim> membrane_flow;

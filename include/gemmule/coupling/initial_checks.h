@@ -37,9 +37,8 @@ public:
   /** No vesicle, filament or gap may be too small for the finest cells. */
   void nothing_lost(const std::vector<LostPart<dim>> &lost) const;
 
-  /** Projection onto the zero set of the interpolated level set: there has to be one, and a normal to it. */
-  MembraneProjection<dim> project(const std::vector<MembranePatch<dim>> &patches,
-                                  const dealii::Point<dim> &origin) const;
+  /** The interpolated level set has to have a zero set. @p membrane projection onto it; nullptr: none */
+  void on_mesh(const MembraneProjection<dim> *membrane) const;
 
   /**
    * The zero set on the mesh: nothing may be in it that is not near the zero set of the expression, and two

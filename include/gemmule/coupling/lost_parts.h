@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include <gemmule/geometry/cut_geometry.h>
-#include <gemmule/geometry/level_set.h>
+#include <gemmule/geometry/interface.h>
+#include <gemmule/geometry/membrane_projection.h>
 #include <gemmule/geometry/zero_set_distance.h>
 #include <gemmule/mesh/membrane_search.h>
 
@@ -30,19 +30,20 @@ struct LostPart
 };
 
 /**
- * Compares the membrane on the mesh (zero set of @p level_set, with the cut cells of @p geometry) with the
- * zero set of the function of which @p distance is the distance and @p roots are points.
+ * Compares the membrane on the mesh (zero set of @p interface) with the zero set of the function of which
+ * @p distance is the distance and @p roots are points.
  *
  * A part is lost where a root has no membrane of the mesh within half a cell, and where a point of a cell at
  * the membrane is on the wrong side although its distance from the zero set is more than an error of
  * interpolation: there either a layer between two sheets has vanished, or a corner has become blunt.
  * Inaccurate is the membrane, too, where its radius of curvature or the thickness of a layer is below an edge
  * of the cell.
+ * @param membrane projection onto the membrane of the interface; nullptr if the mesh has none
  * @return those of all ranks. Collective.
  */
 template <int dim>
-std::vector<LostPart<dim>> find_lost_parts(const LevelSet<dim> &level_set, const CutGeometry<dim> &geometry,
-                                           const ZeroSetDistance<dim> &distance,
-                                           const std::vector<MembraneRoot<dim>> &roots,
-                                           MPI_Comm communicator);
+std::vector<LostPart<dim>>
+find_lost_parts(const Interface<dim> &interface, const MembraneProjection<dim> *membrane,
+                const ZeroSetDistance<dim> &distance, const std::vector<MembraneRoot<dim>> &roots,
+                MPI_Comm communicator);
 } // namespace Gemmule

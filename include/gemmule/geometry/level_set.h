@@ -94,8 +94,8 @@ public:
   /** phi += amount in the narrow band: moves the membrane inwards by this length (area correction). */
   void shift(double amount);
 
-  /** Nodal values on an owned cell. */
-  LevelSetCell<dim> values_on(const typename dealii::DoFHandler<dim>::active_cell_iterator &cell) const;
+  /** Nodal values on an owned or ghost cell of the mesh. */
+  LevelSetCell<dim> values_on(const typename dealii::Triangulation<dim>::active_cell_iterator &cell) const;
 
   const dealii::DoFHandler<dim> &get_dof_handler() const { return dof_handler; }
   /** Ghosted, satisfies the hanging-node constraints. */
@@ -117,6 +117,6 @@ private:
   const LevelSetFilter<dim> filter;
   Vector phi;
   bool far_nodes_are_set = false;
-  std::vector<bool> is_in_narrow_band; ///< by active_cell_index
+  std::vector<bool> is_in_narrow_band; ///< by active_cell_index; empty: no band has been set on this mesh
 };
 } // namespace Gemmule

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include <gemmule/geometry/cut_geometry.h>
-#include <gemmule/geometry/level_set.h>
+#include <gemmule/geometry/interface.h>
 #include <gemmule/geometry/membrane_projection.h>
 
 #include <mpi.h>
@@ -26,13 +25,13 @@ double largest_unresolved_cell(const MembraneProjection<dim> &membrane, double l
  * where that removes the last connection. The enclosed area is not kept.
  *
  * @param membrane of which patches, narrow band and points are taken
- * @param level_set becomes a signed distance of the new membrane, @p geometry its cut mesh
+ * @param interface becomes the new membrane, its level set a signed distance, and cut
  * @return arclength (area in 3D) of the membrane before
  * @throws SimulationError if nothing is left. Collective.
  */
 template <int dim>
-double remove_small_features(const MembraneSnapshot<dim> &membrane, double radius, LevelSet<dim> &level_set,
-                             CutGeometry<dim> &geometry, MPI_Comm communicator);
+double remove_small_features(const MembraneSnapshot<dim> &membrane, double radius, Interface<dim> &interface,
+                             MPI_Comm communicator);
 
 /**
  * Points of either membrane that are farther from the other one than a twentieth of the old membrane's

@@ -33,12 +33,10 @@ public:
   void reinit_mesh();
 
   /**
-   * Curvature of the membrane of @p geometry, which must stay until the next call. Throws SimulationError.
-   * @param level_set_dofs, level_set Q3 level set, ghosted
+   * Curvature of the membrane, whose cut cells must stay until the next call. Throws SimulationError.
    * Collective.
    */
-  void compute_curvature(const CutGeometry<dim> &geometry, const dealii::DoFHandler<dim> &level_set_dofs,
-                         const Vector &level_set);
+  void compute_curvature(const Interface<dim> &interface);
 
   /**
    * Moment and energy for the concentrations on the cut cells; nullptr stands for composition 0 everywhere.

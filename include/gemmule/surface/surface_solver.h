@@ -29,8 +29,6 @@ template <int dim>
 class SurfaceSolver
 {
 public:
-  using Vector = dealii::LinearAlgebra::distributed::Vector<double>;
-
   /** @p model and @p parameters are kept by reference. */
   SurfaceSolver(const dealii::Triangulation<dim> &triangulation, const MembraneModel &model,
                 const Parameters::Surface &parameters);
@@ -43,19 +41,17 @@ public:
    * @param curvature at the quadrature points, nullptr without bending
    * Collective.
    */
-  void initialise(const CutGeometry<dim> &geometry, const dealii::DoFHandler<dim> &level_set_dofs,
-                  const Vector &level_set, const dealii::Function<dim> &concentration,
+  void initialise(const Interface<dim> &interface, const dealii::Function<dim> &concentration,
                   const dealii::Function<dim> &total_concentration,
                   const MembranePointValues *curvature = nullptr);
 
   /**
-   * Takes the fields to the membrane of @p geometry, that of the end of @p step.
+   * Takes the fields to the membrane of @p interface, that of the end of @p step.
    *
-   * The geometry must live until the next call. Throws SimulationError if Newton's method does not converge,
+   * The interface must live until the next call. Throws SimulationError if Newton's method does not converge,
    * a concentration cannot be continued, or the membrane left the box. Collective.
    */
-  void advance(const CutGeometry<dim> &geometry, const dealii::DoFHandler<dim> &level_set_dofs,
-               const Vector &level_set, const SurfaceStep<dim> &step);
+  void advance(const Interface<dim> &interface, const SurfaceStep<dim> &step);
 
   const TraceField<dim> &concentration() const { return phases.concentration(); }
   const TraceField<dim> &total_concentration() const { return total; }

@@ -22,6 +22,8 @@ template <int dim>
 class CutGeometry;
 template <int dim>
 struct CutCell;
+template <int dim>
+class Interface;
 
 /** A locally owned cell of the active mesh. */
 template <int dim>
@@ -70,13 +72,12 @@ public:
   /**
    * Finds the active mesh and numbers its unknowns.
    *
-   * @param geometry kept by reference until the next call
-   * @param level_set_dofs, level_set Q3 level set, ghosted, near to a signed distance in it
+   * @param interface near to a signed distance in the active mesh; its cut cells are kept by reference until
+   * the next call
    * @param clouds earlier membranes (nullptr: none), complete on every rank
    * Throws SimulationError if an earlier membrane reaches out of the mesh. Collective.
    */
-  void prepare(const CutGeometry<dim> &geometry, const dealii::DoFHandler<dim> &level_set_dofs,
-               const Vector &level_set, const std::array<const MembraneCloud<dim> *, 2> &clouds);
+  void prepare(const Interface<dim> &interface, const std::array<const MembraneCloud<dim> *, 2> &clouds);
 
   const CutGeometry<dim> &geometry() const { return *current_geometry; }
   const std::vector<TraceCell<dim>> &active_mesh() const { return cells; }
@@ -99,12 +100,8 @@ public:
   MPI_Comm communicator() const { return dof_handler.get_communicator(); }
 
 private:
-  void locate_clouds(const dealii::DoFHandler<dim> &level_set_dofs, const Vector &level_set,
-                     const std::array<const MembraneCloud<dim> *, 2> &clouds,
+  void locate_clouds(const Interface<dim> &interface, const std::array<const MembraneCloud<dim> *, 2> &clouds,
                      std::vector<bool> &is_in_active_mesh);
-  std::array<double, TensorLagrange<dim, 3>::n> nodal_level_set(unsigned int active_cell_index,
-                                                                const dealii::DoFHandler<dim> &level_set_dofs,
-                                                                const Vector &level_set) const;
   void compute_normal_derivatives(TraceCell<dim> &cell,
                                   const std::array<double, TensorLagrange<dim, 3>::n> &level_set) const;
 
@@ -113,7 +110,6 @@ private:
   dealii::DoFHandler<dim> dof_handler;
   dealii::AffineConstraints<double> constraints;
   std::vector<unsigned int> lexicographic;
-  std::vector<unsigned int> lexicographic_level_set;
   CellLocator<dim> locator;
   std::vector<typename dealii::DoFHandler<dim>::active_cell_iterator> owned_cells; ///< by active_cell_index
 
