@@ -25,10 +25,10 @@ namespace
     };
     field("velocity", &Fields::velocity);
     field("displacement", &Fields::displacement);
-    field("previous_velocity", &Fields::previous_velocity);
+    field("previous_velocity", &Fields::velocity_1_back);
     field("tension_velocity", &Fields::tension_velocity);
-    field("previous_concentration", &Fields::previous_concentration);
-    field("preceding_concentration", &Fields::preceding_concentration);
+    field("previous_concentration", &Fields::concentration_1_back);
+    field("preceding_concentration", &Fields::concentration_2_back);
     field("concentration", &Fields::concentration);
     field("total_concentration", &Fields::total_concentration);
     field("chemical_potential", &Fields::chemical_potential);
@@ -87,14 +87,17 @@ namespace
 template <int dim>
 void exchange(ArrayExchange &archive, CoupledState<dim> &state)
 {
-  archive.scope("current", [&] { exchange_snapshot(archive, state.current); });
-  archive.scope("previous", [&] { exchange_snapshot(archive, state.previous); });
-  archive("dt_previous", state.dt_previous);
-  archive("dt_preceding", state.dt_preceding);
+  // The names in the files are older than those of the members.
+  archive.scope("current", [&] { exchange_snapshot(archive, state.levels.level_n); });
+  archive.scope("previous", [&] { exchange_snapshot(archive, state.levels.level_n_minus_1); });
+  archive("dt_previous", state.levels.step_to_n);
+  archive("dt_preceding", state.levels.step_to_n_minus_1);
+  static_assert(sizeof(state.levels) == 2 * sizeof(MembraneSnapshot<dim>) + 4 * sizeof(double),
+                "AcceptedLevels has a new member: give it a line here, then count it");
   archive("area_0", state.area_0);
   archive("arclength_0", state.arclength_0);
-  archive("capillary_limit", state.limits.capillary);
-  archive("displacement_limit", state.limits.displacement);
+  archive("capillary_limit", state.levels.limits.capillary);
+  archive("displacement_limit", state.levels.limits.displacement);
   archive("grid_scale_rigidity", state.grid_scale_rigidity);
   archive.integers("mesh", state.mesh);
   archive("steps_since_remeshing", state.steps_since_remeshing);

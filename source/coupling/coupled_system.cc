@@ -104,13 +104,10 @@ void CoupledSystem<dim>::start_history(const double time)
   std::vector<TransportedFields<dim>> at_rest(interface.geometry().cut_cells().size());
   for (unsigned int c = 0; c < at_rest.size(); ++c)
     for (unsigned int i = 0; i < MembraneFields<dim>::n; ++i)
-      at_rest[c].previous_velocity[i] = raise_degree<dim>(get_flow().membrane_velocity()[c].nodal)[i];
-  current = take_snapshot(time, at_rest);
+      at_rest[c].velocity_1_back[i] = raise_degree<dim>(get_flow().membrane_velocity()[c].nodal)[i];
+  history.begin(take_snapshot(time, at_rest), membrane_flow.time_step_limits(interface.geometry()));
   last_computed_time = time;
-  previous = MembraneSnapshot<dim>();
-  dt_previous = dt_preceding = 0.;
   resist_negative_tension();
-  current_limits = membrane_flow.time_step_limits(interface.geometry());
 }
 
 template <int dim>
@@ -148,7 +145,7 @@ CoupledSystem<dim>::take_snapshot(const double time,
   {
     fields[c].velocity = raise_degree<dim>(get_flow().membrane_velocity()[c].nodal);
     fields[c].displacement = transported[c].displacement;
-    fields[c].previous_velocity = transported[c].previous_velocity;
+    fields[c].velocity_1_back = transported[c].velocity_1_back;
     if (has_arclength_multiplier())
       fields[c].tension_velocity = raise_degree<dim>(membrane_flow.tension_velocity()[c].nodal);
     if (surface)
@@ -156,8 +153,8 @@ CoupledSystem<dim>::take_snapshot(const double time,
       fields[c].concentration = raise_degree<dim>(surface->concentration()[c]);
       fields[c].total_concentration = raise_degree<dim>(surface->total_concentration()[c]);
       fields[c].chemical_potential = raise_degree<dim>(surface->chemical_potential()[c]);
-      fields[c].previous_concentration = transported[c].concentration;
-      fields[c].preceding_concentration = transported[c].previous_concentration;
+      fields[c].concentration_1_back = transported[c].concentration_1_back;
+      fields[c].concentration_2_back = transported[c].concentration_2_back;
     }
   }
   MembraneSnapshot<dim> snapshot;
@@ -173,11 +170,7 @@ template <int dim>
 void CoupledSystem<dim>::accept()
 {
   ++n_steps_on_mesh;
-  dt_preceding = dt_previous;
-  dt_previous = dt_trial;
-  previous = std::move(current);
-  current = std::move(trial);
-  current_limits = trial_limits;
+  history.accept(std::move(trial.level), trial.step, trial.limits);
   resist_negative_tension();
   sample_flow();
 }

@@ -4,7 +4,6 @@
 #include <gemmule/base/gather.h>
 #include <gemmule/coupling/coupled_system.h>
 #include <gemmule/coupling/wall_cells.h>
-#include <gemmule/geometry/cloud_refinement.h>
 
 #include <algorithm>
 #include <cmath>
@@ -109,7 +108,7 @@ std::vector<MembraneSample<dim>> CoupledSystem<dim>::samples(const MembraneProje
 }
 
 template <int dim>
-void CoupledSystem<dim>::adapt_mesh(const MembraneProjection<dim> &membrane,
+bool CoupledSystem<dim>::adapt_mesh(const MembraneProjection<dim> &membrane,
                                     const MembraneMotion<dim> *motion)
 {
   bool changed = false;
@@ -128,9 +127,8 @@ void CoupledSystem<dim>::adapt_mesh(const MembraneProjection<dim> &membrane,
     ++n_mesh_changes;
     n_steps_on_mesh = 0;
     reinit_mesh();
-    refine_cloud(current, triangulation);
-    refine_cloud(previous, triangulation);
   }
+  return changed;
 }
 
 template <int dim>
@@ -158,8 +156,8 @@ template void CoupledSystem<2>::reinit_spaces();
 template void CoupledSystem<3>::reinit_spaces();
 template void CoupledSystem<2>::sample_flow();
 template void CoupledSystem<3>::sample_flow();
-template void CoupledSystem<2>::adapt_mesh(const MembraneProjection<2> &, const MembraneMotion<2> *);
-template void CoupledSystem<3>::adapt_mesh(const MembraneProjection<3> &, const MembraneMotion<3> *);
+template bool CoupledSystem<2>::adapt_mesh(const MembraneProjection<2> &, const MembraneMotion<2> *);
+template bool CoupledSystem<3>::adapt_mesh(const MembraneProjection<3> &, const MembraneMotion<3> *);
 template void CoupledSystem<2>::cut_mesh();
 template void CoupledSystem<3>::cut_mesh();
 } // namespace Gemmule

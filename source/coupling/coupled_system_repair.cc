@@ -27,7 +27,8 @@ namespace
 template <int dim>
 bool CoupledSystem<dim>::membrane_is_resolved() const
 {
-  return largest_unresolved_cell(MembraneProjection<dim>(current.patches, origin), too_large_curvature) == 0.;
+  return largest_unresolved_cell(MembraneProjection<dim>(history.level_n().patches, origin),
+                                 too_large_curvature) == 0.;
 }
 
 template <int dim>
@@ -51,7 +52,8 @@ template <int dim>
 RepairReport CoupledSystem<dim>::begin_from_repaired_membrane()
 {
   const CutGeometry<dim> &geometry = interface.geometry();
-  const MembraneProjection<dim> old_membrane(current.patches, origin);
+  const MembraneSnapshot<dim> &old = history.level_n();
+  const MembraneProjection<dim> old_membrane(old.patches, origin);
   RepairReport report;
   {
     TimerOutput::Scope scope(timer_output, "geometry: repair");
@@ -59,7 +61,7 @@ RepairReport CoupledSystem<dim>::begin_from_repaired_membrane()
     const auto remove = [&](const double radius)
     {
       report.radius = radius * cell_size;
-      report.arclength_before = remove_small_features(current, report.radius, interface, communicator);
+      report.arclength_before = remove_small_features(old, report.radius, interface, communicator);
     };
     for (unsigned int i = 0; i < repair_radii.size(); ++i)
     {
@@ -83,19 +85,18 @@ RepairReport CoupledSystem<dim>::begin_from_repaired_membrane()
     const auto points = find_repaired_points(old_membrane, geometry, origin, communicator);
     const auto carry_over = [&](const auto field, const std::vector<double> &densities)
     {
-      const auto &weights = current.cloud.weights;
+      const auto &weights = old.cloud.weights;
       const double mass = std::inner_product(weights.begin(), weights.end(), densities.begin(), 0.);
       return RepairedConcentration<dim>(old_membrane, field, mass, geometry, points, communicator);
     };
-    surface->initialise(interface, carry_over(&Fields::concentration, current.cloud.concentration),
-                        carry_over(&Fields::total_concentration, current.cloud.total_concentration),
-                        curvature);
+    surface->initialise(interface, carry_over(&Fields::concentration, old.cloud.concentration),
+                        carry_over(&Fields::total_concentration, old.cloud.total_concentration), curvature);
   }
   // The length of sheets that have merged cannot come back: the constraint holds for what is left.
   arclength_0 *= report.arclength_after / report.arclength_before;
-  solve_flow(current.time, parameters.time_stepping.initial_step, nullptr);
+  solve_flow(history.time(), parameters.time_stepping.initial_step, nullptr);
   n_steps_on_mesh = 0;
-  start_history(current.time);
+  start_history(history.time());
   sample_flow();
   return report;
 }

@@ -8,13 +8,9 @@ template <int dim>
 CoupledState<dim> CoupledSystem<dim>::state() const
 {
   CoupledState<dim> state;
-  state.current = current;
-  state.previous = previous;
-  state.dt_previous = dt_previous;
-  state.dt_preceding = dt_preceding;
+  state.levels = history.accepted();
   state.area_0 = area_0;
   state.arclength_0 = arclength_0;
-  state.limits = current_limits;
   state.grid_scale_rigidity = model.bending().grid_scale_rigidity();
   state.mesh = gather_mesh_cells(triangulation);
   state.steps_since_remeshing = steps_since_remeshing;
@@ -36,15 +32,11 @@ void CoupledSystem<dim>::restore(const CoupledState<dim> &state)
   steps_since_remeshing = state.steps_since_remeshing;
   n_steps_on_mesh = state.n_steps_on_mesh;
   flow_samples = state.flow_samples;
-  current = state.current;
-  previous = state.previous;
-  dt_previous = state.dt_previous;
-  dt_preceding = state.dt_preceding;
+  history.restore(state.levels);
   area_0 = state.area_0;
   arclength_0 = state.arclength_0;
-  current_limits = state.limits;
   model.bending().set_grid_scale_rigidity(state.grid_scale_rigidity);
-  last_computed_time = current.time;
+  last_computed_time = history.time();
 }
 
 template CoupledState<2> CoupledSystem<2>::state() const;

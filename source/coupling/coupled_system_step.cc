@@ -23,11 +23,11 @@ namespace
 } // namespace
 
 template <int dim>
-void CoupledSystem<dim>::move_level_set(const MembraneMotion<dim> &motion)
+void CoupledSystem<dim>::move_level_set(const MembraneMotion<dim> &motion, const TrialClouds<dim> &clouds)
 {
   {
     TimerOutput::Scope scope(timer_output, "geometry: level set");
-    interface.move(motion, NarrowBandLevelSet<dim>(current.narrow_band, origin, &current.cloud),
+    interface.move(motion, NarrowBandLevelSet<dim>(history.level_n().narrow_band, origin, &clouds.level_n()),
                    motion.old_membrane().distance_drift() > largest_distance_drift);
   }
   try
@@ -47,7 +47,8 @@ void CoupledSystem<dim>::move_level_set(const MembraneMotion<dim> &motion)
 template <int dim>
 double CoupledSystem<dim>::next_arclength() const
 {
-  const double arclength = std::accumulate(current.cloud.weights.begin(), current.cloud.weights.end(), 0.);
+  const auto &weights = history.level_n().cloud.weights;
+  const double arclength = std::accumulate(weights.begin(), weights.end(), 0.);
   const double largest_change = largest_arclength_change * arclength_0;
   return std::clamp(arclength_0, arclength - largest_change, arclength + largest_change);
 }
@@ -65,19 +66,16 @@ void CoupledSystem<dim>::make_or_drop_bending()
 }
 
 template <int dim>
-void CoupledSystem<dim>::move_membrane(const MembraneProjection<dim> &membrane, MembraneMotion<dim> &motion)
+void CoupledSystem<dim>::move_membrane(const MembraneProjection<dim> &membrane, MembraneMotion<dim> &motion,
+                                       TrialClouds<dim> &clouds)
 {
-  if (!has_arclength_multiplier())
-  {
-    adapt_mesh(membrane, &motion);
-    move_level_set(motion);
-    return;
-  }
-  const double target = next_arclength();
+  const bool is_fitted = has_arclength_multiplier();
+  const double target = is_fitted ? next_arclength() : 0.;
   double aim = target;
-  bool fits = motion.fit_measure(current.cloud, aim, area_0) == 0.;
-  adapt_mesh(membrane, &motion);
-  move_level_set(motion);
+  bool fits = !is_fitted || motion.fit_measure(clouds.level_n(), aim, area_0) == 0.;
+  if (adapt_mesh(membrane, &motion))
+    clouds.reinit_mesh();
+  move_level_set(motion, clouds);
   // The length is predicted up to the error of the level set; where that is too large, aim differently.
   for (unsigned int i = 0; i < 3 && !fits; ++i)
   {
@@ -86,30 +84,30 @@ void CoupledSystem<dim>::move_membrane(const MembraneProjection<dim> &membrane, 
     if (!fits)
     {
       aim -= excess;
-      motion.fit_measure(current.cloud, aim, area_0);
-      move_level_set(motion);
+      motion.fit_measure(clouds.level_n(), aim, area_0);
+      move_level_set(motion, clouds);
     }
   }
 }
 
 template <int dim>
-void CoupledSystem<dim>::advance_phases(const MembraneProjection<dim> &membrane,
+void CoupledSystem<dim>::advance_phases(const TimeStep &time_step, const TrialClouds<dim> &clouds,
+                                        const MembraneProjection<dim> &membrane,
                                         const std::vector<TransportedFields<dim>> &transported,
-                                        const CutCellScalar<dim> &predicted, const BdfCoefficients &bdf,
+                                        const CutCellScalar<dim> &predicted,
                                         const MembranePointValues *curvature)
 {
   using Fields = MembraneFields<dim>;
   const auto &cut_cells = interface.geometry().cut_cells();
   const unsigned int n_cells = cut_cells.size();
-  const bool first = dt_previous == 0.;
   CutCellVector<dim> velocity(n_cells);
   for (unsigned int c = 0; c < n_cells; ++c)
     velocity[c] = transported[c].advecting_velocity;
 
   SurfaceStep<dim> step;
-  step.time_step = dt_trial;
-  step.bdf = bdf;
-  step.clouds = {{&current.cloud, first ? nullptr : &previous.cloud}};
+  step.time_step = time_step.size();
+  step.bdf = time_step.bdf();
+  step.clouds = {{&clouds.level_n(), clouds.level_n_minus_1()}};
   step.velocity = &velocity;
   step.predicted_concentration = &predicted;
   step.curvature = curvature;
@@ -120,13 +118,13 @@ void CoupledSystem<dim>::advance_phases(const MembraneProjection<dim> &membrane,
     extended[0] = extend_along_normals(membrane, &Fields::total_concentration, cut_cells);
     predicted_total = extended[0];
     step.extended_total_concentration[0] = &extended[0];
-    if (!first)
+    if (const auto *const level = history.level_n_minus_1())
     {
-      const MembraneProjection<dim> previous_membrane(previous.patches, origin);
-      extended[1] = extend_along_normals(previous_membrane, &Fields::total_concentration, cut_cells);
+      extended[1] = extend_along_normals(MembraneProjection<dim>(level->patches, origin),
+                                         &Fields::total_concentration, cut_cells);
       for (unsigned int c = 0; c < n_cells; ++c)
         for (unsigned int i = 0; i < Fields::n; ++i)
-          predicted_total[c][i] = bdf.e1 * extended[0][c][i] + bdf.e2 * extended[1][c][i];
+          predicted_total[c][i] = step.bdf.e1 * extended[0][c][i] + step.bdf.e2 * extended[1][c][i];
       step.extended_total_concentration[1] = &extended[1];
     }
     step.predicted_total_concentration = &predicted_total;
@@ -137,16 +135,13 @@ void CoupledSystem<dim>::advance_phases(const MembraneProjection<dim> &membrane,
 template <int dim>
 StepErrors CoupledSystem<dim>::try_step(const double dt)
 {
-  const double time = current.time + dt;
-  const bool first = dt_previous == 0.;
-  const StepSizes steps{dt, dt_previous, dt_preceding};
-  const BdfCoefficients bdf =
-      first ? BdfCoefficients::first_order() : BdfCoefficients::second_order(dt / dt_previous);
-  const MembraneProjection<dim> membrane(current.patches, origin);
-  MembraneMotion<dim> motion(membrane, dt, dt_previous);
-  dt_trial = dt;
+  const double time = history.time() + dt;
+  const TimeStep step = history.next_step(dt);
+  const MembraneProjection<dim> membrane(history.level_n().patches, origin);
+  MembraneMotion<dim> motion(membrane, step);
+  TrialClouds<dim> clouds(history, triangulation);
   make_or_drop_bending();
-  move_membrane(membrane, motion);
+  move_membrane(membrane, motion, clouds);
   const MembranePointValues *const curvature = compute_curvature();
 
   std::vector<TransportedFields<dim>> transported;
@@ -158,18 +153,17 @@ StepErrors CoupledSystem<dim>::try_step(const double dt)
   if (surface)
   {
     TimerOutput::Scope scope(timer_output, "surface: phases");
-    predicted = predict_concentration(transported, steps);
-    advance_phases(membrane, transported, predicted, bdf, curvature);
+    predicted = predict_concentration(transported, step);
+    advance_phases(step, clouds, membrane, transported, predicted, curvature);
   }
 
   CutCellVector<dim> old_velocity(transported.size());
   for (unsigned int c = 0; c < transported.size(); ++c)
-    old_velocity[c] = transported[c].previous_velocity;
+    old_velocity[c] = transported[c].velocity_1_back;
   solve_flow(time, dt, &old_velocity);
   last_computed_time = time;
-  trial_limits = membrane_flow.time_step_limits(interface.geometry());
-  trial = take_snapshot(time, transported);
-  return estimate_step_errors(interface.geometry(), get_flow(), surface.get(), transported, predicted, steps,
+  trial = {take_snapshot(time, transported), dt, membrane_flow.time_step_limits(interface.geometry())};
+  return estimate_step_errors(interface.geometry(), get_flow(), surface.get(), transported, predicted, step,
                               communicator);
 }
 

@@ -102,12 +102,13 @@ namespace
 } // namespace
 
 template <int dim>
-bool refine_cloud(MembraneSnapshot<dim> &snapshot,
-                  const parallel::distributed::Triangulation<dim> &triangulation)
+std::optional<MembraneCloud<dim>>
+refined_cloud(const MembraneSnapshot<dim> &snapshot,
+              const parallel::distributed::Triangulation<dim> &triangulation)
 {
   const auto &patches = snapshot.patches;
   if (patches.empty()) // on all ranks
-    return false;
+    return {};
   CartesianCellMap<dim> map(snapshot.origin);
   for (unsigned int p = 0; p < patches.size(); ++p)
     map.insert(patches[p].corner, patches[p].size, p);
@@ -120,7 +121,7 @@ bool refine_cloud(MembraneSnapshot<dim> &snapshot,
     any = any || n_parts[p] > 1;
   }
   if (!any)
-    return false;
+    return {};
 
   MembraneCloud<dim> result;
   const auto &old = snapshot.cloud;
@@ -163,10 +164,11 @@ bool refine_cloud(MembraneSnapshot<dim> &snapshot,
         append(result, points.points[i], points.normals[i], stretch * points.weights[i],
                points.concentration[i] + f, points.total_concentration[i] + f_total);
     }
-  snapshot.cloud = std::move(result);
-  return true;
+  return result;
 }
 
-template bool refine_cloud(MembraneSnapshot<2> &, const parallel::distributed::Triangulation<2> &);
-template bool refine_cloud(MembraneSnapshot<3> &, const parallel::distributed::Triangulation<3> &);
+template std::optional<MembraneCloud<2>> refined_cloud(const MembraneSnapshot<2> &,
+                                                       const parallel::distributed::Triangulation<2> &);
+template std::optional<MembraneCloud<3>> refined_cloud(const MembraneSnapshot<3> &,
+                                                       const parallel::distributed::Triangulation<3> &);
 } // namespace Gemmule

@@ -9,26 +9,20 @@ namespace Gemmule
 using namespace dealii;
 
 template <int dim>
-MembraneMotion<dim>::MembraneMotion(const MembraneProjection<dim> &projection, const double dt,
-                                    const double dt_previous)
-    : projection(projection), dt(dt)
+MembraneMotion<dim>::MembraneMotion(const MembraneProjection<dim> &projection, const TimeStep &step)
+    : projection(projection), dt(step.size()), bdf(step.bdf())
 {
-  const double r = dt_previous > 0. ? dt / dt_previous : 0.;
-  velocity_weight = 1. + r;
-  previous_velocity_weight = -r;
-  displacement_weight = r * r / (1. + r); // a2
-  inverse_a0 = (1. + r) / (1. + 2. * r);
 }
 
 template <int dim>
 Tensor<1, dim> MembraneMotion<dim>::displacement(const ClosestPoint<dim> &p) const
 {
   using Fields = MembraneFields<dim>;
-  Tensor<1, dim> velocity = velocity_weight * projection.value(p, &Fields::velocity) +
-                            previous_velocity_weight * projection.value(p, &Fields::previous_velocity);
+  Tensor<1, dim> velocity = bdf.e1 * projection.value(p, &Fields::velocity) +
+                            bdf.e2 * projection.value(p, &Fields::velocity_1_back);
   if (added_tension != 0.)
     velocity += added_tension * projection.value(p, &Fields::tension_velocity);
-  return inverse_a0 * (dt * velocity + displacement_weight * projection.value(p, &Fields::displacement));
+  return bdf.inverse_a0 * (dt * velocity + bdf.a2 * projection.value(p, &Fields::displacement));
 }
 
 template <int dim>
@@ -47,9 +41,8 @@ typename MembraneMotion<dim>::Trajectory MembraneMotion<dim>::trace_back(const P
       break;
     result.departure_point = projection.project(x - d, result.departure_point);
   }
-  result.velocity =
-      velocity_weight * projection.value(result.departure_point, &Fields::velocity) +
-      previous_velocity_weight * projection.value(result.departure_point, &Fields::previous_velocity);
+  result.velocity = bdf.e1 * projection.value(result.departure_point, &Fields::velocity) +
+                    bdf.e2 * projection.value(result.departure_point, &Fields::velocity_1_back);
   if (added_tension != 0.)
     result.velocity += added_tension * projection.value(result.departure_point, &Fields::tension_velocity);
   return result;
@@ -80,10 +73,10 @@ double MembraneMotion<dim>::fit_measure(const MembraneCloud<dim> &cloud, const d
     for (unsigned int k = 0; k < Basis::n; ++k)
     {
       const Tensor<1, dim> d =
-          inverse_a0 * (dt * (velocity_weight * patch.fields.velocity[k] +
-                              previous_velocity_weight * patch.fields.previous_velocity[k]) +
-                        displacement_weight * patch.fields.displacement[k]);
-      const Tensor<1, dim> e = (inverse_a0 * dt) * patch.fields.tension_velocity[k];
+          bdf.inverse_a0 *
+          (dt * (bdf.e1 * patch.fields.velocity[k] + bdf.e2 * patch.fields.velocity_1_back[k]) +
+           bdf.a2 * patch.fields.displacement[k]);
+      const Tensor<1, dim> e = (bdf.inverse_a0 * dt) * patch.fields.tension_velocity[k];
       motion[i].displacement += values[k] * d;
       motion[i].displacement_by_tension += values[k] * e;
       motion[i].deformation += outer_product(d, gradients[k]) / patch.size;
@@ -113,7 +106,7 @@ double MembraneMotion<dim>::fit_measure(const MembraneCloud<dim> &cloud, const d
   added_tension = 0.;
   const double step = 1e-3;
   const double slope = (moved_measure(step) - moved_measure(-step)) / (2. * step);
-  if (!(std::abs(slope) > 1e-9 * inverse_a0 * dt * measure))
+  if (!(std::abs(slope) > 1e-9 * bdf.inverse_a0 * dt * measure))
     return 0.;
   double tension = 0.;
   for (unsigned int iteration = 0; iteration < 6; ++iteration)

@@ -42,13 +42,12 @@ std::vector<TransportedFields<dim>> transport_fields(const MembraneMotion<dim> &
       auto &t = transported[c];
       t.advecting_velocity[i] = trajectory.velocity;
       t.displacement[i] = trajectory.displacement;
-      t.previous_velocity[i] = old_membrane.value(trajectory.departure_point, &Fields::velocity);
-      t.concentration[i] = old_membrane.value(trajectory.departure_point, &Fields::concentration);
-      t.previous_concentration[i] =
-          old_membrane.value(trajectory.departure_point, &Fields::previous_concentration);
-      t.preceding_concentration[i] =
-          old_membrane.value(trajectory.departure_point, &Fields::preceding_concentration);
-      t.total_concentration[i] = old_membrane.value(trajectory.departure_point, &Fields::total_concentration);
+      const auto old_value = [&](const auto field)
+      { return old_membrane.value(trajectory.departure_point, field); };
+      t.velocity_1_back[i] = old_value(&Fields::velocity);
+      t.concentration_1_back[i] = old_value(&Fields::concentration);
+      t.concentration_2_back[i] = old_value(&Fields::concentration_1_back);
+      t.concentration_3_back[i] = old_value(&Fields::concentration_2_back);
     }
   return transported;
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // The quadrature points of an earlier membrane on a mesh that has been refined since.
+#include <gemmule/coupling/trial_clouds.h>
 #include <gemmule/geometry/cloud_refinement.h>
 #include <gemmule/geometry/cut_geometry.h>
 #include <gemmule/geometry/membrane_transport.h>
@@ -83,6 +84,16 @@ double largest_error_in_a_cell(const MembraneSnapshot<2> &snapshot, const LevelS
   return Utilities::MPI::max(error, MPI_COMM_WORLD);
 }
 
+/** Gives the snapshot the points that the mesh needs; whether these are others than it had. */
+bool refine(MembraneSnapshot<2> &snapshot, const LevelSetMesh<2> &mesh)
+{
+  auto cloud = refined_cloud(snapshot, mesh.triangulation);
+  if (!cloud)
+    return false;
+  snapshot.cloud = std::move(*cloud);
+  return true;
+}
+
 std::array<double, 3> sums(const MembraneCloud<2> &cloud)
 {
   std::array<double, 3> s{};
@@ -105,7 +116,7 @@ TEST(ParallelCloudRefinement, EveryNewCellHasItsShareAndTheSumsStay)
   geometry.reinit(mesh.dof_handler, mesh.level_set);
   MembraneSnapshot<2> snapshot = circle_snapshot(geometry);
   const auto before = sums(snapshot.cloud);
-  EXPECT_FALSE(refine_cloud(snapshot, mesh.triangulation)) << "nothing has been refined";
+  EXPECT_FALSE(refined_cloud(snapshot, mesh.triangulation).has_value()) << "nothing has been refined";
 
   // cells of three levels along the membrane
   mesh.refine_where([](const auto &p) { return p[0] > 0.; });
@@ -113,14 +124,14 @@ TEST(ParallelCloudRefinement, EveryNewCellHasItsShareAndTheSumsStay)
   mesh.interpolate(circle);
   geometry.reinit(mesh.dof_handler, mesh.level_set);
   EXPECT_GT(largest_error_in_a_cell(snapshot, mesh, geometry), 0.05) << "this is what it is for";
-  EXPECT_TRUE(refine_cloud(snapshot, mesh.triangulation));
+  EXPECT_TRUE(refine(snapshot, mesh));
   EXPECT_LT(largest_error_in_a_cell(snapshot, mesh, geometry), 1e-3);
   const auto after = sums(snapshot.cloud);
   for (unsigned int i = 0; i < 3; ++i)
     EXPECT_NEAR(after[i] / before[i], 1., 1e-13);
 
   // Again, and on a coarser mesh, the sums stay what they are: the cells have all the points they need.
-  refine_cloud(snapshot, mesh.triangulation);
+  refine(snapshot, mesh);
   for (unsigned int i = 0; i < 3; ++i)
     EXPECT_NEAR(sums(snapshot.cloud)[i] / before[i], 1., 1e-13);
   for (const auto &cell : mesh.triangulation.active_cell_iterators())
@@ -129,7 +140,7 @@ TEST(ParallelCloudRefinement, EveryNewCellHasItsShareAndTheSumsStay)
   mesh.triangulation.execute_coarsening_and_refinement();
   mesh.interpolate(circle);
   geometry.reinit(mesh.dof_handler, mesh.level_set);
-  refine_cloud(snapshot, mesh.triangulation);
+  refine(snapshot, mesh);
   EXPECT_LT(largest_error_in_a_cell(snapshot, mesh, geometry), 2e-3);
   for (unsigned int i = 0; i < 3; ++i)
     EXPECT_NEAR(sums(snapshot.cloud)[i] / before[i], 1., 1e-13);
@@ -161,7 +172,7 @@ TEST(ParallelCloudRefinement, ConcentrationsWithoutMassInACellStay)
   const double before = sums(cloud)[1];
 
   mesh.refine_where([](const auto &p) { return p[0] > 0.; });
-  EXPECT_TRUE(refine_cloud(snapshot, mesh.triangulation));
+  EXPECT_TRUE(refine(snapshot, mesh));
   EXPECT_NEAR(sums(cloud)[1], before, 1e-13);
   unsigned int n = 0;
   for (unsigned int i = 0; i < cloud.points.size(); ++i)
@@ -171,4 +182,42 @@ TEST(ParallelCloudRefinement, ConcentrationsWithoutMassInACellStay)
       EXPECT_NEAR(cloud.concentration[i], concentration(cloud.points[i]), 1e-4);
     }
   EXPECT_GT(n, 4u);
+}
+
+TEST(ParallelCloudRefinement, BelongsToATryAndLeavesTheHistory)
+{
+  LevelSetMesh<2> mesh(4);
+  const Functions::SignedDistance::Sphere<2> circle(Point<2>(0.0137, 0.0071), 0.45);
+  mesh.interpolate(circle);
+  CutGeometry<2> geometry;
+  geometry.reinit(mesh.dof_handler, mesh.level_set);
+  const MembraneSnapshot<2> snapshot = circle_snapshot(geometry);
+  History<2> history;
+  history.begin(snapshot, {});
+  TrialClouds<2> clouds(history, mesh.triangulation);
+  EXPECT_EQ(&clouds.level_n(), &history.level_n().cloud) << "the mesh is that of the level";
+  EXPECT_EQ(clouds.level_n_minus_1(), nullptr);
+
+  mesh.refine_where([](const auto &p) { return p[0] > 0.; });
+  clouds.reinit_mesh();
+  EXPECT_GT(clouds.level_n().points.size(), 1.3 * snapshot.cloud.points.size());
+  EXPECT_EQ(history.level_n().cloud.points, snapshot.cloud.points);
+  EXPECT_EQ(history.level_n().cloud.weights, snapshot.cloud.weights);
+
+  // Another try, on that mesh from the start, and as the level before.
+  history.accept(snapshot, 0.1, {});
+  const TrialClouds<2> later(history, mesh.triangulation);
+  ASSERT_NE(later.level_n_minus_1(), nullptr);
+  EXPECT_EQ(later.level_n_minus_1()->points, clouds.level_n().points);
+  EXPECT_EQ(later.level_n_minus_1()->weights, clouds.level_n().weights);
+  for (unsigned int i = 0; i < 3; ++i)
+    EXPECT_NEAR(sums(later.level_n())[i] / sums(snapshot.cloud)[i], 1., 1e-13);
+
+  // Where the mesh is coarse again the points are those that the level had.
+  for (const auto &cell : mesh.triangulation.active_cell_iterators())
+    if (cell->is_locally_owned() && cell->level() > 4)
+      cell->set_coarsen_flag();
+  mesh.triangulation.execute_coarsening_and_refinement();
+  clouds.reinit_mesh();
+  EXPECT_EQ(&clouds.level_n(), &history.level_n().cloud);
 }

@@ -70,12 +70,12 @@ namespace
           fields[c].velocity[i] =
               velocity(geometry.cut_cells()[c].physical(TensorLagrange<2, 3>::node(i)), step * dt);
           fields[c].displacement[i] = transported[c].displacement[i];
-          fields[c].previous_velocity[i] = transported[c].previous_velocity[i];
+          fields[c].velocity_1_back[i] = transported[c].velocity_1_back[i];
         }
       const auto patches = gather_patches(geometry.cut_cells(), fields, MPI_COMM_WORLD);
       const auto band = interface.level_set().gather_narrow_band();
       const MembraneProjection<2> projection(patches, origin);
-      const MembraneMotion<2> motion(projection, dt, step == 0 ? 0. : dt);
+      const MembraneMotion<2> motion(projection, TimeStep(dt, step == 0 ? 0. : dt));
       if (remesh_each_step)
       {
         // refine one half of the box, the other half in the next step

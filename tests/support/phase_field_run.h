@@ -4,6 +4,7 @@
 #include <gemmule/model/membrane_model.h>
 #include <gemmule/parameters/discretisation.h>
 #include <gemmule/surface/surface_solver.h>
+#include <gemmule/time/time_step.h>
 
 #include <deal.II/base/function.h>
 
@@ -51,9 +52,8 @@ public:
     harness.set_membrane(distance(time));
     SurfaceStep<2> step;
     step.time_step = time_step;
-    step.bdf =
-        n_steps == 0 ? BdfCoefficients::first_order() : BdfCoefficients::second_order(time_step / last_step);
-    step.clouds = {{&clouds[0], n_steps == 0 ? nullptr : &clouds[1]}};
+    step.bdf = TimeStep(time_step, last_step).bdf();
+    step.clouds = {{&clouds[0], last_step == 0. ? nullptr : &clouds[1]}};
     const auto u = harness.vector(velocity);
     const auto f = harness.scalar(prediction);
     step.velocity = &u;
@@ -62,7 +62,6 @@ public:
     clouds[1] = std::move(clouds[0]);
     clouds[0] = SurfaceHarness::gather(solver.cloud());
     last_step = time_step;
-    ++n_steps;
   }
 
   /** Changes the mesh between two steps. */
@@ -89,7 +88,6 @@ private:
   SurfaceHarness::VectorField velocity;
   SurfaceHarness::Field prediction; ///< a poor one, so that Newton's method has something to do
   std::array<MembraneCloud<2>, 2> clouds;
-  double last_step = 0.;
-  unsigned int n_steps = 0;
+  double last_step = 0.; ///< 0: none
 };
 } // namespace Gemmule::Testing

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include <gemmule/geometry/membrane_snapshot.h>
+#include <gemmule/coupling/history.h>
 #include <gemmule/mesh/mesh_cells.h>
 #include <gemmule/mesh/refinement_criterion.h>
-#include <gemmule/time/time_step_limits.h>
 
 namespace Gemmule
 {
@@ -20,11 +19,8 @@ class ArrayExchange;
 template <int dim>
 struct CoupledState
 {
-  MembraneSnapshot<dim> current, previous;
-  double dt_previous = 0.;  ///< between previous and current
-  double dt_preceding = 0.; ///< the one before
+  AcceptedLevels<dim> levels;
   double area_0 = 0., arclength_0 = 0.;
-  TimeStepLimits limits;
   double grid_scale_rigidity = 0.;
 
   std::vector<MeshCell<dim>> mesh; ///< refinement has hysteresis, so that the membrane does not imply it

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <gemmule/coupling/coupled_state.h>
+#include <gemmule/coupling/history.h>
 #include <gemmule/coupling/membrane_flow.h>
 #include <gemmule/coupling/step_errors.h>
+#include <gemmule/coupling/trial_clouds.h>
 #include <gemmule/geometry/interface.h>
 #include <gemmule/geometry/membrane_snapshot.h>
 #include <gemmule/geometry/membrane_transport.h>
@@ -31,8 +33,7 @@ struct RepairReport
  * Membrane, surface phases and flow on the adaptive mesh, and one time step of them (design section 2,
  * "Coupling and time"): the membrane moves with the extrapolated velocity, then the concentrations follow on
  * the new membrane, then tension and Stokes flow. The accepted states are snapshots that do not depend on the
- * mesh; a step that is rejected leaves them as they were, but for a finer rule of their points if it has
- * refined the mesh.
+ * mesh; a step that is rejected leaves them bitwise as they were.
  */
 template <int dim>
 class CoupledSystem
@@ -79,15 +80,15 @@ public:
   RepairReport repair_membrane();
 
   /** Time of the current (accepted) state. */
-  double time() const { return current.time; }
+  double time() const { return history.time(); }
   /** Time of the last state that was computed, accepted or not: the time of all that the functions below
    * return. */
   double computed_time() const { return last_computed_time; }
-  double last_step() const { return dt_previous; }
+  double last_step() const { return history.last_step(); }
 
   /** Of the current (accepted) state: what a try computed, or left half done, says nothing about the next
    * one. */
-  const TimeStepLimits &time_step_limits() const { return current_limits; }
+  const TimeStepLimits &time_step_limits() const { return history.limits(); }
 
   // What the last state that was computed is like, for output.
   const AllParameters &get_parameters() const { return parameters; }
@@ -121,7 +122,8 @@ private:
   /** Samples of the current membrane, at its predicted position if there is a motion. */
   std::vector<MembraneSample<dim>> samples(const MembraneProjection<dim> &membrane,
                                            const MembraneMotion<dim> *motion) const;
-  void adapt_mesh(const MembraneProjection<dim> &membrane, const MembraneMotion<dim> *motion);
+  /** @return whether the mesh has changed */
+  bool adapt_mesh(const MembraneProjection<dim> &membrane, const MembraneMotion<dim> *motion);
   /** Cut cells of the present level set, with the area of the beginning. */
   void cut_mesh();
   /** Throws SimulationError where the membrane may not be. */
@@ -139,15 +141,16 @@ private:
   /** Lets the negative tension of the current state have its grid-scale rigidity in the next step. */
   void resist_negative_tension();
   /** Level set and cut mesh of the current membrane after @p motion, with the area of the beginning. */
-  void move_level_set(const MembraneMotion<dim> &motion);
+  void move_level_set(const MembraneMotion<dim> &motion, const TrialClouds<dim> &clouds);
   /** The first part of a step: a mesh for the current membrane and its next place, and its motion there; a
    * multiplier of the arclength changes @p motion. */
-  void move_membrane(const MembraneProjection<dim> &membrane, MembraneMotion<dim> &motion);
+  void move_membrane(const MembraneProjection<dim> &membrane, MembraneMotion<dim> &motion,
+                     TrialClouds<dim> &clouds);
   /** The second part: the phases on the membrane that has been moved. */
-  void advance_phases(const MembraneProjection<dim> &membrane,
+  void advance_phases(const TimeStep &time_step, const TrialClouds<dim> &clouds,
+                      const MembraneProjection<dim> &membrane,
                       const std::vector<TransportedFields<dim>> &transported,
-                      const CutCellScalar<dim> &predicted, const BdfCoefficients &bdf,
-                      const MembranePointValues *curvature);
+                      const CutCellScalar<dim> &predicted, const MembranePointValues *curvature);
   /** Whether there is MembraneBending is a property of the state, not of its history: a resumed run has to
    * find the same. */
   void make_or_drop_bending();
@@ -182,11 +185,14 @@ private:
   unsigned int n_steps_on_mesh = 0;          ///< accepted ones since the last change
   std::vector<CellSample<dim>> flow_samples; ///< of the current state; empty if no criterion needs them
 
-  MembraneSnapshot<dim> current, previous, trial;
-  double dt_previous = 0.;  ///< between previous and current
-  double dt_preceding = 0.; ///< the one before
-  double dt_trial = 0.;
+  History<dim> history;
+  /** What the last try has computed. */
+  struct Trial
+  {
+    MembraneSnapshot<dim> level;
+    double step = 0.;
+    TimeStepLimits limits;
+  } trial;
   double last_computed_time = 0.;
-  TimeStepLimits current_limits, trial_limits;
 };
 } // namespace Gemmule

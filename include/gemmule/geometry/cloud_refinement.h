@@ -5,10 +5,12 @@
 
 #include <deal.II/distributed/tria.h>
 
+#include <optional>
+
 namespace Gemmule
 {
 /**
- * Makes the quadrature points of an earlier membrane as fine as the mesh has become.
+ * The quadrature points of an earlier membrane, as fine as the mesh has become.
  *
  * The points of a cloud are Gauss points of the cells that the membrane cut when it was at its time level.
  * Sums over them are accurate for functions that are smooth on those cells. Where cells have been refined
@@ -17,9 +19,10 @@ namespace Gemmule
  * the same polynomials of level set and concentrations. Measure and both masses of the points that are
  * replaced are kept exactly.
  *
- * @return whether anything has been replaced. The result is the same on all ranks. Collective.
+ * @return nothing where no cell has become finer. The same on all ranks. Collective.
  */
 template <int dim>
-bool refine_cloud(MembraneSnapshot<dim> &snapshot,
-                  const dealii::parallel::distributed::Triangulation<dim> &triangulation);
+std::optional<MembraneCloud<dim>>
+refined_cloud(const MembraneSnapshot<dim> &snapshot,
+              const dealii::parallel::distributed::Triangulation<dim> &triangulation);
 } // namespace Gemmule

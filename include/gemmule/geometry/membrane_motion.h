@@ -2,6 +2,7 @@
 #pragma once
 
 #include <gemmule/geometry/membrane_projection.h>
+#include <gemmule/time/time_step.h>
 
 #include <vector>
 
@@ -11,19 +12,18 @@ namespace Gemmule
  * Motion of the membrane over one time step along the trajectories of its points, BDF2 with extrapolated
  * velocity and variable step (dimensionless time):
  *
- *   (a0 X^{n+1} + a1 X^n + a2 X^{n-1}) / dt = u* = (1 + r) <u>^n(X^n) - r <u>^{n-1}(X^{n-1}),  r = dt /
- * dt_previous,
+ *   (a0 X^{n+1} + a1 X^n + a2 X^{n-1}) / dt = u* = e1 <u>^n(X^n) + e2 <u>^{n-1}(X^{n-1})
  *
- * explicit Euler in the first step. X^{n-1} and <u>^{n-1}(X^{n-1}) are fields of the membrane at level n,
- * extended constantly along normals. Stable for decay rates up to 4 / (3 dt), where Adams-Bashforth 2 ends at
- * 1 / dt.
+ * with the coefficients of BdfCoefficients, explicit Euler in the first step. X^{n-1} and <u>^{n-1}(X^{n-1})
+ * are fields of the membrane at level n, extended constantly along normals. Stable for decay rates up to 4 /
+ * (3 dt), where Adams-Bashforth 2 ends at 1 / dt.
  */
 template <int dim>
 class MembraneMotion
 {
 public:
-  /** @param dt_previous zero for the first step. The projection must outlive the object. */
-  MembraneMotion(const MembraneProjection<dim> &projection, double dt, double dt_previous);
+  /** @param projection onto the membrane at level n; must outlive the object */
+  MembraneMotion(const MembraneProjection<dim> &projection, const TimeStep &step);
 
   /** Where a point came from, and what moved it. */
   struct Trajectory
@@ -57,8 +57,8 @@ public:
 
 private:
   const MembraneProjection<dim> &projection;
-  double dt;
-  double velocity_weight, previous_velocity_weight, displacement_weight, inverse_a0;
+  const double dt;
+  const BdfCoefficients bdf;
   double added_tension = 0.;
 };
 } // namespace Gemmule

@@ -14,7 +14,8 @@ namespace Gemmule
 /**
  * Fields on one cut cell as Q3 polynomials (nodal values in lexicographic order): what a membrane carries
  * from one time level to the next. Off the membrane they are constant along normals up to the discretisation
- * error.
+ * error. A name that ends in k_back is a field of k time levels before that of the membrane, at the same
+ * material points.
  */
 template <int dim>
 struct MembraneFields
@@ -23,15 +24,15 @@ struct MembraneFields
   using Scalar = std::array<double, n>;
   using Vector = std::array<dealii::Tensor<1, dim>, n>;
 
-  Vector velocity{};          ///< velocity <u> that moves the membrane
-  Vector displacement{};      ///< x - X, X the position of the same material point at the previous time level
-  Vector previous_velocity{}; ///< <u> of the previous time level at X
-  Vector tension_velocity{};  ///< velocity due to a uniform tension of one; with an arclength multiplier only
-  Scalar previous_concentration{};  ///< f of the previous time level at X
-  Scalar preceding_concentration{}; ///< f of the level before that, at the same material point
-  Scalar concentration{};           ///< f
-  Scalar total_concentration{};     ///< f-bar
-  Scalar chemical_potential{};      ///< mu
+  Vector velocity{};         ///< velocity <u> that moves the membrane
+  Vector displacement{};     ///< x - X, X the position of the same material point one level back
+  Vector velocity_1_back{};  ///< <u>
+  Vector tension_velocity{}; ///< velocity due to a uniform tension of one; with an arclength multiplier only
+  Scalar concentration_1_back{};
+  Scalar concentration_2_back{};
+  Scalar concentration{};       ///< f
+  Scalar total_concentration{}; ///< f-bar
+  Scalar chemical_potential{};  ///< mu
 };
 
 /** One cut cell of the membrane: geometry and fields. */

@@ -9,20 +9,22 @@
 
 namespace Gemmule
 {
-/** What the nodes of a cut cell of the new membrane receive from the old one along the trajectories. */
+/**
+ * What the nodes of a cut cell of the membrane at level n+1 receive from that at level n along the
+ * trajectories. Names as in MembraneFields: what ends in k_back is of level n+1-k.
+ */
 template <int dim>
 struct TransportedFields
 {
   using Scalar = typename MembraneFields<dim>::Scalar;
   using Vector = typename MembraneFields<dim>::Vector;
 
-  Vector advecting_velocity{};      ///< u*, the velocity that moved the membrane
-  Vector displacement{};            ///< x - X
-  Vector previous_velocity{};       ///< <u>^n(X)
-  Scalar concentration{};           ///< f^n(X)
-  Scalar previous_concentration{};  ///< f^{n-1} at the same material point
-  Scalar preceding_concentration{}; ///< f^{n-2} at the same material point
-  Scalar total_concentration{};     ///< f-bar^n(X)
+  Vector advecting_velocity{};   ///< u*, the velocity that moved the membrane
+  Vector displacement{};         ///< x - X
+  Vector velocity_1_back{};      ///< <u>^n(X)
+  Scalar concentration_1_back{}; ///< f^n(X)
+  Scalar concentration_2_back{}; ///< f^{n-1} at the same material point
+  Scalar concentration_3_back{}; ///< f^{n-2} at the same material point
 };
 
 /** The fields of @p motion at the nodes of the given cut cells. */

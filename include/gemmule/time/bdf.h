@@ -18,6 +18,7 @@ struct BdfCoefficients
   double a2 = 0.;
   double e1 = 1.;
   double e2 = 0.;
+  double inverse_a0 = 1.; ///< from the steps, and not from the rounded a0
 
   /** Backward Euler, for the first step. */
   static BdfCoefficients first_order() { return {}; }
@@ -26,7 +27,7 @@ struct BdfCoefficients
   static BdfCoefficients second_order(const double step_ratio)
   {
     const double r = step_ratio;
-    return {(1. + 2. * r) / (1. + r), -(1. + r), r * r / (1. + r), 1. + r, -r};
+    return {(1. + 2. * r) / (1. + r), -(1. + r), r * r / (1. + r), 1. + r, -r, (1. + r) / (1. + 2. * r)};
   }
 
   unsigned int order() const { return a2 == 0. ? 1 : 2; }
