@@ -82,7 +82,8 @@ bool can_be_resumed(const std::string &results)
 
 template <int dim>
 Checkpoints<dim>::Checkpoints(const AllParameters &parameters, const MPI_Comm communicator)
-    : parameters(parameters), communicator(communicator), directory(parameters.output_directory)
+    : parameters(parameters), communicator(communicator), directory(parameters.output_directory),
+      schedule(parameters.checkpoint)
 {
 }
 
@@ -136,7 +137,7 @@ RunState<dim> Checkpoints<dim>::load(std::vector<std::string> &notes)
     throw UserError("--resume: the checkpoint " + loaded_path +
                     " is of t = " + Parameters::to_text(state.row.time) + ", but 'End time' is " +
                     Parameters::to_text(parameters.end_time) + ". Choose a later end.");
-  last_step = state.row.step;
+  schedule.is_written(state.row.step);
   last_path = loaded_path;
   return state;
 }
@@ -152,19 +153,15 @@ void Checkpoints<dim>::restore_results()
 template <int dim>
 bool Checkpoints<dim>::is_due(const unsigned int step) const
 {
-  const auto &options = parameters.checkpoint;
-  const bool by_steps = options.steps_between > 0 && step >= last_step + options.steps_between;
-  const bool by_clock =
-      options.wall_clock_interval > 0. && since_last.wall_time() >= options.wall_clock_interval;
   // The clock of one rank decides for all.
-  return dealii::Utilities::MPI::broadcast(communicator, by_steps || by_clock, 0);
+  return dealii::Utilities::MPI::broadcast(communicator, schedule.is_due(step, since_last.wall_time()), 0);
 }
 
 template <int dim>
 std::string Checkpoints<dim>::write(RunState<dim> &state, const Provenance &provenance)
 {
   on_rank_zero(communicator, [&]() { write_files(state, provenance); });
-  last_step = state.row.step;
+  schedule.is_written(state.row.step);
   since_last.restart();
   return dealii::Utilities::MPI::broadcast(communicator, last_path, 0);
 }

@@ -52,9 +52,11 @@ void exchange(ArrayExchange &archive, RunState<dim> &state)
   state.row = to_statistics_row(row);
   archive.scope("membrane", [&] { exchange_samples(archive, state.membrane); });
   archive("membrane_is_written", state.membrane_is_written);
-  archive("n_rejected", state.n_rejected);
-  archive("n_attempts", state.n_attempts);
-  archive("last_repair", state.last_repair);
+  archive("n_rejected", state.retries.n_rejected);
+  archive("n_attempts", state.retries.n_attempts);
+  archive("last_repair", state.retries.last_repair);
+  static_assert(sizeof(state.retries) == 2 * sizeof(double),
+                "RetryMemory has a new member: give it a line above, then count it here");
   archive("wall_time", state.wall_time);
   archive("n_interface_groups", state.n_interface_groups);
   archive("n_field_files", state.n_field_files);

@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <gemmule/application/checkpoints.h>
-#include <gemmule/application/reporting.h>
+#include <gemmule/application/run_results.h>
+#include <gemmule/application/step_attempts.h>
 #include <gemmule/application/vesicle_problem.h>
 #include <gemmule/base/exceptions.h>
 #include <gemmule/base/rank_zero.h>
 #include <gemmule/coupling/coupled_system.h>
 #include <gemmule/output/disk_error.h>
 #include <gemmule/output/output_directory.h>
-#include <gemmule/time/step_control.h>
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
 #include <optional>
 #include <sstream>
 
@@ -46,14 +43,15 @@ namespace
 } // namespace
 
 template <int dim>
-VesicleProblem<dim>::VesicleProblem(const AllParameters &parameters_, const MPI_Comm communicator_,
-                                    const std::string &command_line_, const bool resume)
-    : parameters(parameters_), communicator(communicator_), command_line(command_line_),
+VesicleProblem<dim>::VesicleProblem(const AllParameters &parameters, const MPI_Comm communicator,
+                                    const std::string &command_line, const bool resume)
+    : parameters(parameters), communicator(communicator), command_line(command_line),
       stop_conditions(parameters.checkpoint.wall_time_limit, communicator),
-      provenance(command_line, parameters.values())
+      provenance(command_line, parameters.values()), schedule(parameters.output, parameters.end_time),
+      control(parameters.time_stepping, 0., schedule.stops()),
+      retries(parameters.time_stepping, parameters.membrane.repair_unresolved_shapes),
+      checkpoints(std::make_unique<Checkpoints<dim>>(parameters, communicator))
 {
-  checkpoints = std::make_unique<Checkpoints<dim>>(parameters, communicator);
-  membrane = std::make_unique<InterfaceSamples<dim>>();
   try
   {
     set_up(resume);
@@ -93,9 +91,9 @@ void VesicleProblem<dim>::set_up(const bool resume)
   else
     system->initialise();
 
-  control = std::make_unique<StepControl>(parameters.time_stepping, 0., stops());
   stop_conditions.setup_is_done();
   open_output(resumed ? &*resumed : nullptr, std::move(lock), notes);
+  make_attempts();
   if (resumed)
     continue_from(*resumed);
   if (begins_anew)
@@ -109,8 +107,6 @@ template <int dim>
 void VesicleProblem<dim>::open_output(const RunState<dim> *resumed, std::unique_ptr<DirectoryLock> lock,
                                       std::vector<std::string> &notes)
 {
-  const double resume_after_time =
-      resumed != nullptr ? resumed->row.time : -std::numeric_limits<double>::infinity();
   directory = std::make_unique<OutputDirectory>(parameters.output_directory, communicator, resumed != nullptr,
                                                 std::move(lock));
   if (resumed != nullptr)
@@ -123,34 +119,11 @@ void VesicleProblem<dim>::open_output(const RunState<dim> *resumed, std::unique_
   std::ostringstream values;
   parameters.print(values);
   directory->write_parameters(values.str());
-  statistics = std::make_unique<StatisticsWriter>(directory->path(), communicator, resume_after_time);
-  interface_writer =
-      std::make_unique<InterfaceWriter<dim>>(directory->path(), communicator, provenance, resume_after_time);
-  field_writer = std::make_unique<FieldWriter<dim>>(directory->path(), communicator, provenance,
-                                                    resumed != nullptr ? resumed->n_field_files : 0);
+  results = std::make_unique<RunResults<dim>>(directory->path(), communicator, provenance, schedule, resumed);
 }
 
 template <int dim>
 VesicleProblem<dim>::~VesicleProblem() = default;
-
-template <int dim>
-std::vector<double> VesicleProblem<dim>::stops() const
-{
-  std::vector<double> times{parameters.end_time};
-  for (const double interval : {parameters.output.field_interval, parameters.output.interface_interval})
-    for (unsigned int i = 1; interval > 0. && i * interval < parameters.end_time * (1. - 1e-9); ++i)
-      times.push_back(i * interval);
-  for (const double time : parameters.output.output_times)
-    if (time > 0. && time < parameters.end_time)
-      times.push_back(time);
-  // Two intervals meet at times that differ by round-off: keep one of them.
-  std::sort(times.begin(), times.end());
-  times.erase(std::unique(times.begin(), times.end(),
-                          [](const double a, const double b) { return b - a <= 1e-9 * std::max(1., b); }),
-              times.end());
-  times.back() = parameters.end_time;
-  return times;
-}
 
 template <int dim>
 void VesicleProblem<dim>::announce() const
@@ -167,8 +140,8 @@ void VesicleProblem<dim>::announce() const
               (can_be_resumed(earlier) ? ", and --resume --output " + earlier + " continues it."
                                        : "; it has no checkpoint that this version could continue."));
   if (is_resumed)
-    log->info("resumed at t = " + rounded(row.time) + " after " + std::to_string(row.step) +
-              " steps; results in " + directory->path() + "; " + cells);
+    log->info("resumed at t = " + rounded(results->row().time) + " after " +
+              std::to_string(results->row().step) + " steps; results in " + directory->path() + "; " + cells);
   else
     log->info("results in " + directory->path() + "; " + cells + ", " +
               std::to_string(system->get_flow().n_unknowns()) + " unknowns of the flow" +
@@ -208,26 +181,24 @@ int VesicleProblem<dim>::run_steps()
   if (!is_resumed)
   {
     report();
-    write_output_if_due(false);
+    results->write_if_due(*system);
     // From now on there is something to resume, whatever happens.
     write_checkpoint();
   }
-  else if (control->finished())
+  else if (control.finished())
   {
     // It was stopped where it ends now.
-    if (!membrane_is_written)
-      interface_writer->write(*membrane);
-    membrane_is_written = true;
+    results->write_membrane();
     write_checkpoint();
   }
 
-  while (!control->finished())
+  while (!control.finished())
   {
     if (const std::string reason = make_step(); !reason.empty())
       return stop(reason);
     write_results();
     if (parameters.output.progress)
-      log->progress(system->time(), parameters.end_time, row.step, row.time_step_size);
+      log->progress(control.time(), parameters.end_time, results->row().step, results->row().time_step_size);
   }
   stop_conditions.run_is_finished();
   print_timers();
@@ -247,9 +218,12 @@ template class VesicleProblem<2>;
 template std::vector<std::string> check_case<2>(const AllParameters &, MPI_Comm);
 
 template <>
-VesicleProblem<3>::VesicleProblem(const AllParameters &, const MPI_Comm communicator, const std::string &,
-                                  bool)
-    : communicator(communicator), stop_conditions(0., communicator)
+VesicleProblem<3>::VesicleProblem(const AllParameters &parameters, const MPI_Comm communicator,
+                                  const std::string &, bool)
+    : parameters(parameters), communicator(communicator), stop_conditions(0., communicator),
+      schedule(parameters.output, parameters.end_time),
+      control(parameters.time_stepping, 0., schedule.stops()),
+      retries(parameters.time_stepping, parameters.membrane.repair_unresolved_shapes)
 {
   throw ParameterError("Dimension",
                        "3 is not available yet: the parts are written for three dimensions, but the coupled "

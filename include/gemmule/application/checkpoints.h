@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <gemmule/application/output_schedule.h>
 #include <gemmule/application/run_state.h>
 #include <gemmule/output/checkpoint_directory.h>
 #include <gemmule/output/provenance.h>
@@ -34,6 +35,7 @@ template <int dim>
 class Checkpoints
 {
 public:
+  /** @param parameters must outlive the object */
   Checkpoints(const AllParameters &parameters, MPI_Comm communicator);
 
   /**
@@ -69,11 +71,11 @@ public:
 private:
   void write_files(RunState<dim> &state, const Provenance &provenance);
 
-  const AllParameters parameters;
+  const AllParameters &parameters;
   const MPI_Comm communicator;
   CheckpointDirectory directory;
+  CheckpointSchedule schedule;
   dealii::Timer since_last;
-  unsigned int last_step = 0;
   std::string loaded_path, last_path;
   std::vector<unsigned int> damaged;
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <gemmule/application/retry_policy.h>
 #include <gemmule/coupling/coupled_state.h>
 #include <gemmule/output/interface_output.h>
 #include <gemmule/output/statistics.h>
@@ -18,10 +19,8 @@ struct RunState
   StatisticsRow row;                ///< of the last accepted step
   InterfaceSamples<dim> membrane;   ///< of the same
   bool membrane_is_written = false; ///< to interface.h5
-  unsigned int n_rejected = 0;      ///< steps that were repeated
-  unsigned int n_attempts = 0;      ///< at the next step, in vain
-  double last_repair = -1.; ///< time of the last repair of the membrane, tried or done; negative: never
-  double wall_time = 0.;    ///< seconds of all runs so far
+  RetryMemory retries;
+  double wall_time = 0.; ///< seconds of all runs so far
 
   // How much has been written, to notice what is missing.
   unsigned int n_interface_groups = 0;
