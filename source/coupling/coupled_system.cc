@@ -56,7 +56,7 @@ CoupledSystem<dim>::CoupledSystem(const AllParameters &parameters_, const MPI_Co
           [this]
           {
             make_box_mesh(triangulation, parameters.domain, parameters.mesh.bulk_level);
-            return lower_corner<dim>(parameters.domain);
+            return parameters.domain.lower<dim>();
           }()),
       // Without the communicator: with it, every exception would be preceded by a banner on the screen.
       timer_output(std::cout, TimerOutput::never, TimerOutput::cpu_and_wall_times),

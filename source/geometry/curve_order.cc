@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <gemmule/base/cartesian_index.h>
 #include <gemmule/geometry/curve_order.h>
 
 #include <deal.II/base/exceptions.h>
@@ -7,7 +8,6 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <unordered_map>
 
 namespace Gemmule
 {
@@ -56,36 +56,16 @@ namespace
                                             const double largest_spacing)
   {
     const unsigned int n = points.size();
-    const double bin_size = 3. * largest_spacing;
-    const auto bin_of = [&](const Point<2> &p)
-    {
-      return std::make_pair(static_cast<std::int32_t>(std::floor(p[0] / bin_size)),
-                            static_cast<std::int32_t>(std::floor(p[1] / bin_size)));
-    };
-    const auto key = [](const std::int32_t a, const std::int32_t b) {
-      return (static_cast<std::uint64_t>(static_cast<std::uint32_t>(a)) << 32) |
-             static_cast<std::uint32_t>(b);
-    };
-    std::unordered_map<std::uint64_t, std::vector<unsigned int>> bins;
+    PointBins<2> bins(Point<2>(), 3. * largest_spacing);
     for (unsigned int i = 0; i < n; ++i)
-    {
-      const auto b = bin_of(points[i]);
-      bins[key(b.first, b.second)].push_back(i);
-    }
+      bins.insert(points[i], i);
 
     std::vector<unsigned int> successor(n, none);
     std::vector<unsigned int> candidates;
     for (unsigned int i = 0; i < n; ++i)
     {
       candidates.clear();
-      const auto b = bin_of(points[i]);
-      for (int dx = -1; dx <= 1; ++dx)
-        for (int dy = -1; dy <= 1; ++dy)
-        {
-          const auto bin = bins.find(key(b.first + dx, b.second + dy));
-          if (bin != bins.end())
-            candidates.insert(candidates.end(), bin->second.begin(), bin->second.end());
-        }
+      bins.visit_nearby(points[i], [&](const unsigned int j) { candidates.push_back(j); });
       successor[i] = nearest_ahead(i, candidates, points, normals, true);
       if (successor[i] == none) // a corner
         successor[i] = nearest_ahead(i, candidates, points, normals, false);

@@ -88,14 +88,15 @@ namespace
 
 template <int dim>
 MembraneProjection<dim>::MembraneProjection(const std::vector<MembranePatch<dim>> &patches_,
-                                            const Point<dim> &origin_)
-    : patches(patches_), origin(origin_), patch_map(origin_)
+                                            const Point<dim> &origin)
+    : patches(patches_), patch_map(origin)
 {
   if (patches.empty())
     throw StepBreakdown("The membrane has vanished: no cell of the mesh is cut by it any more.");
 
+  double largest_size = 0.;
   for (const auto &patch : patches)
-    bin_size = std::max(bin_size, patch.size);
+    largest_size = std::max(largest_size, patch.size);
   for (unsigned int p = 0; p < patches.size(); ++p)
   {
     const auto &patch = patches[p];
@@ -118,23 +119,14 @@ MembraneProjection<dim>::MembraneProjection(const std::vector<MembranePatch<dim>
   if (all_samples.empty())
     throw StepBreakdown("The membrane has degenerated: no point of it could be found in the cut cells.");
 
+  bins = PointBins<dim>(origin, largest_size);
   for (unsigned int i = 0; i < all_samples.size(); ++i)
-    bins[bin_of(all_samples[i].point)].push_back(i);
-}
-
-template <int dim>
-typename MembraneProjection<dim>::Key MembraneProjection<dim>::bin_of(const Point<dim> &x) const
-{
-  Key key;
-  for (unsigned int d = 0; d < dim; ++d)
-    key[d] = static_cast<int>(std::floor((x[d] - origin[d]) / bin_size));
-  return key;
+    bins.insert(all_samples[i].point, i);
 }
 
 template <int dim>
 unsigned int MembraneProjection<dim>::nearest_sample(const Point<dim> &x) const
 {
-  const Key center = bin_of(x);
   double best = std::numeric_limits<double>::max();
   unsigned int nearest = 0;
   const auto visit = [&](const unsigned int i)
@@ -147,30 +139,14 @@ unsigned int MembraneProjection<dim>::nearest_sample(const Point<dim> &x) const
     }
   };
   // rings of bins around the point; what lies beyond ring r is at least r bins away
+  const LatticeKey<dim> center = bins.bin_of(x);
+  const double bin_size = bins.bin_size();
   const int n_rings = 3;
   for (int ring = 0; ring <= n_rings; ++ring)
   {
     if (ring > 0 && best <= (ring - 1.) * (ring - 1.) * bin_size * bin_size)
       return nearest;
-    const int width = 2 * ring + 1;
-    const int n_bins = dim == 2 ? width * width : width * width * width;
-    for (int b = 0; b < n_bins; ++b)
-    {
-      Key key;
-      int radius = 0;
-      for (int d = 0, rest = b; d < dim; ++d, rest /= width)
-      {
-        const int offset = rest % width - ring;
-        radius = std::max(radius, std::abs(offset));
-        key[d] = center[d] + offset;
-      }
-      if (radius != ring)
-        continue;
-      const auto bin = bins.find(key);
-      if (bin != bins.end())
-        for (const unsigned int i : bin->second)
-          visit(i);
-    }
+    bins.visit_ring(center, ring, visit);
   }
   if (best <= n_rings * n_rings * bin_size * bin_size)
     return nearest;
@@ -293,24 +269,14 @@ double MembraneProjection<dim>::approximate_distance(const Point<dim> &x) const
     return std::copysign(distance, alignment);
 
   // Beside a corner: another sample that is hardly farther may tell more.
-  const Key center = bin_of(closest.point);
-  const int n_bins = dim == 2 ? 9 : 27;
-  for (int b = 0; b < n_bins; ++b)
-  {
-    Key key;
-    for (int d = 0, rest = b; d < dim; ++d, rest /= 3)
-      key[d] = center[d] + rest % 3 - 1;
-    const auto bin = bins.find(key);
-    if (bin == bins.end())
-      continue;
-    for (const unsigned int i : bin->second)
-    {
-      const Sample &sample = all_samples[i];
-      if (x.distance(sample.point) < distance + 0.5 * patches[sample.patch].size &&
-          std::abs(alignment_of(sample)) > std::abs(alignment))
-        alignment = alignment_of(sample);
-    }
-  }
+  bins.visit_nearby(closest.point,
+                    [&](const unsigned int i)
+                    {
+                      const Sample &sample = all_samples[i];
+                      if (x.distance(sample.point) < distance + 0.5 * patches[sample.patch].size &&
+                          std::abs(alignment_of(sample)) > std::abs(alignment))
+                        alignment = alignment_of(sample);
+                    });
   return std::copysign(distance, alignment);
 }
 

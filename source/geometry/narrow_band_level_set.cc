@@ -10,38 +10,6 @@ namespace Gemmule
 using namespace dealii;
 
 template <int dim>
-void CartesianCellMap<dim>::insert(const Point<dim> &corner, const double size, const unsigned int id)
-{
-  unsigned int s = 0;
-  while (s < sizes.size() && std::abs(sizes[s] - size) > 1e-8 * size)
-    ++s;
-  if (s == sizes.size())
-  {
-    sizes.push_back(size);
-    cells.emplace_back();
-  }
-  Key key;
-  for (unsigned int d = 0; d < dim; ++d)
-    key[d] = static_cast<int>(std::lround((corner[d] - origin[d]) / size));
-  cells[s][key] = id;
-}
-
-template <int dim>
-int CartesianCellMap<dim>::find(const Point<dim> &x) const
-{
-  for (unsigned int s = 0; s < sizes.size(); ++s)
-  {
-    Key key;
-    for (unsigned int d = 0; d < dim; ++d)
-      key[d] = static_cast<int>(std::floor((x[d] - origin[d]) / sizes[s]));
-    const auto found = cells[s].find(key);
-    if (found != cells[s].end())
-      return found->second;
-  }
-  return -1;
-}
-
-template <int dim>
 NarrowBandLevelSet<dim>::NarrowBandLevelSet(const std::vector<LevelSetCell<dim>> &cells_,
                                             const Point<dim> &origin, const MembraneCloud<dim> *const cloud)
     : cells(cells_), cloud(cloud), map(origin)
@@ -78,8 +46,6 @@ double NarrowBandLevelSet<dim>::with_side(const double distance, const Point<dim
   return std::copysign(distance, (dim - 1) * numbers::PI - winding);
 }
 
-template class CartesianCellMap<2>;
-template class CartesianCellMap<3>;
 template class NarrowBandLevelSet<2>;
 template class NarrowBandLevelSet<3>;
 } // namespace Gemmule

@@ -2,7 +2,7 @@
 #include <gemmule/mesh/gap_criterion.h>
 
 #include <algorithm>
-#include <unordered_set>
+#include <array>
 
 namespace Gemmule
 {
@@ -24,34 +24,26 @@ GapCriterion<dim>::GapCriterion(const RefinementContext<dim> &context)
 }
 
 template <int dim>
-typename GapCriterion<dim>::Key GapCriterion<dim>::key(const Point<dim> &point, const double size) const
-{
-  Key k;
-  for (unsigned int d = 0; d < dim; ++d)
-    k[d] = static_cast<int>(std::floor((point[d] - box.lower[d]) / size));
-  return k;
-}
-
-template <int dim>
 void GapCriterion<dim>::prepare(const std::vector<MembraneSample<dim>> &samples)
 {
-  hashes.clear();
+  sheets.clear();
   // Gaps that are wide enough for the cells of one level need no finer one, and the membrane has its level
   // anyway.
   for (unsigned int level = finest_level; level > membrane_level; --level)
-    hashes.push_back({largest_margin * cells * box.cell_size(level - 1), {}});
-  for (auto &hash : hashes)
+    sheets.emplace_back(box.lower, largest_margin * cells * box.cell_size(level - 1));
+  for (auto &bins : sheets)
   {
     // One sample for each small cube, time and orthant of the normal: the sheets in a cube are kept apart.
-    std::array<std::unordered_set<Key, LatticeKeyHash<dim>>, 2 << dim> taken;
+    const CubeLattice<dim> small_cubes{box.lower, thinning * bins.bin_size()};
+    std::array<LatticeSet<dim>, 2 << dim> taken;
     for (const auto &sample : samples)
     {
       AssertIndexRange(sample.time_level, 2);
       unsigned int sheet = sample.time_level << dim;
       for (unsigned int d = 0; d < dim; ++d)
         sheet |= (sample.normal[d] > 0. ? 1u : 0u) << d;
-      if (taken[sheet].insert(key(sample.point, thinning * hash.radius)).second)
-        hash.bins[key(sample.point, hash.radius)].push_back({sample.point, sample.normal, sample.time_level});
+      if (taken[sheet].insert(small_cubes.position_of(sample.point)).second)
+        bins.insert(sample.point, {sample.point, sample.normal, sample.time_level});
     }
   }
 }
@@ -60,46 +52,37 @@ template <int dim>
 std::size_t GapCriterion<dim>::largest_bin() const
 {
   std::size_t largest = 0;
-  for (const auto &hash : hashes)
-    for (const auto &[key, sheets] : hash.bins)
-      largest = std::max(largest, sheets.size());
+  for (const auto &bins : sheets)
+    largest = std::max(largest, bins.largest_bin());
   return largest;
 }
 
 template <int dim>
 double GapCriterion<dim>::gap(const MembraneSample<dim> &sample) const
 {
-  for (const auto &hash : hashes)
+  for (const auto &bins : sheets)
   {
-    double narrowest = hash.radius;
-    const Key center = key(sample.point, hash.radius);
-    const int n_bins = dim == 2 ? 9 : 27;
-    for (int b = 0; b < n_bins; ++b)
-    {
-      Key k;
-      for (int d = 0, rest = b; d < dim; ++d, rest /= 3)
-        k[d] = center[d] + rest % 3 - 1;
-      const auto bin = hash.bins.find(k);
-      if (bin == hash.bins.end())
-        continue;
-      for (const Sheet &other : bin->second)
-      {
-        if (other.time_level != sample.time_level || sample.normal * other.normal > opposite)
-          continue;
-        const Tensor<1, dim> difference = other.point - sample.point;
-        const double distance = difference.norm();
-        if (distance >= hash.radius)
-          continue;
-        // Seen from both points the other one is on the same side, inside or outside. Thinning leaves up to a
-        // quarter of the radius along the sheet: points that are closer face each other anyway.
-        const double here = difference * sample.normal, there = -(difference * other.normal);
-        if (distance > 0.5 * hash.radius &&
-            (here * there < 0. || std::min(std::abs(here), std::abs(there)) < facing * distance))
-          continue;
-        narrowest = std::min(narrowest, 0.5 * std::abs(here + there));
-      }
-    }
-    if (narrowest < hash.radius)
+    const double radius = bins.bin_size();
+    double narrowest = radius;
+    bins.visit_nearby(
+        sample.point,
+        [&](const Sheet &other)
+        {
+          if (other.time_level != sample.time_level || sample.normal * other.normal > opposite)
+            return;
+          const Tensor<1, dim> difference = other.point - sample.point;
+          const double distance = difference.norm();
+          if (distance >= radius)
+            return;
+          // Seen from both points the other one is on the same side, inside or outside. Thinning leaves up
+          // to a quarter of the radius along the sheet: points that are closer face each other anyway.
+          const double here = difference * sample.normal, there = -(difference * other.normal);
+          if (distance > 0.5 * radius &&
+              (here * there < 0. || std::min(std::abs(here), std::abs(there)) < facing * distance))
+            return;
+          narrowest = std::min(narrowest, 0.5 * std::abs(here + there));
+        });
+    if (narrowest < radius)
       return narrowest;
   }
   return std::numeric_limits<double>::max();

@@ -83,15 +83,6 @@ MembraneSearch<dim>::MembraneSearch(const Function<dim> &function, Bounds bounds
 }
 
 template <int dim>
-Point<dim> MembraneSearch<dim>::corner(const LatticeKey<dim> &cube, const unsigned int level) const
-{
-  Point<dim> p;
-  for (unsigned int d = 0; d < dim; ++d)
-    p[d] = box.lower[d] + cube[d] * box.cell_size(level);
-  return p;
-}
-
-template <int dim>
 typename MembraneSearch<dim>::Samples MembraneSearch<dim>::sample(const Point<dim> &corner, const double size,
                                                                   const unsigned int n) const
 {
@@ -142,10 +133,11 @@ template <int dim>
 void MembraneSearch<dim>::visit(const Cubes &cubes, const unsigned int level, const bool samples_decide,
                                 Cubes &next, FoundMembrane<dim> &result) const
 {
-  const double size = box.cell_size(level);
+  const CubeLattice<dim> lattice = box.of_level(level);
+  const double size = lattice.size;
   for (const auto &cube : cubes)
   {
-    const Point<dim> lower = corner(cube, level);
+    const Point<dim> lower = lattice.corner(cube);
     const auto bound = bounds(lower, size);
     if (bound.excludes_zero())
       continue;
@@ -175,12 +167,7 @@ void MembraneSearch<dim>::visit(const Cubes &cubes, const unsigned int level, co
     if (is_last)
       continue;
     for (unsigned int child = 0; child < GeometryInfo<dim>::max_children_per_cell; ++child)
-    {
-      LatticeKey<dim> key;
-      for (unsigned int d = 0; d < dim; ++d)
-        key[d] = 2 * cube[d] + static_cast<int>((child >> d) & 1);
-      next.push_back(key);
-    }
+      next.push_back(child_position<dim>(cube, child));
   }
 }
 

@@ -4,8 +4,6 @@
 
 #include <deal.II/base/mpi.h>
 
-#include <cmath>
-
 namespace Gemmule
 {
 using namespace dealii;
@@ -48,8 +46,7 @@ void MeshAdaptation<dim>::insert_with_ancestors(Key key, unsigned int level, Nee
 {
   // as far as they are not known yet
   for (; level > 0 && needed[level].insert(key).second; --level)
-    for (int &component : key)
-      component = component >= 0 ? component / 2 : (component - 1) / 2;
+    key = parent_position<dim>(key);
 }
 
 template <int dim>
@@ -59,13 +56,8 @@ bool MeshAdaptation<dim>::is_child_needed(const Key &key, const int level, const
   if (level + 1 >= static_cast<int>(needed.size()))
     return false;
   for (unsigned int child = 0; child < GeometryInfo<dim>::max_children_per_cell; ++child)
-  {
-    Key child_key;
-    for (unsigned int d = 0; d < dim; ++d)
-      child_key[d] = 2 * key[d] + ((child >> d) & 1);
-    if (needed[level + 1].count(child_key) > 0)
+    if (needed[level + 1].count(child_position<dim>(key, child)) > 0)
       return true;
-  }
   return false;
 }
 
@@ -75,21 +67,13 @@ typename MeshAdaptation<dim>::NeededCells MeshAdaptation<dim>::needed_cells(cons
                                                                             const unsigned int layers) const
 {
   NeededCells needed(finest_level + 1), visited(finest_level + 1);
-  const int n_layers = layers, width = 2 * n_layers + 1;
-  const int n_neighbours = dim == 2 ? width * width : width * width * width;
   for (unsigned int s = 0; s < samples.size(); ++s)
   {
     const unsigned int level = limited(levels[s]);
     const Key center = context.box.position_of(samples[s].point, level);
     if (!visited[level].insert(center).second)
       continue;
-    for (int i = 0; i < n_neighbours; ++i)
-    {
-      Key k;
-      for (int d = 0, rest = i; d < dim; ++d, rest /= width)
-        k[d] = center[d] + rest % width - n_layers;
-      insert_with_ancestors(k, level, needed);
-    }
+    for_each_neighbour<dim>(center, layers, [&](const Key &k) { insert_with_ancestors(k, level, needed); });
   }
   return needed;
 }
@@ -104,20 +88,15 @@ void MeshAdaptation<dim>::add_needed_cells(const CellSamples &samples, const Lev
     const unsigned int level = limited(std::min(levels[s], own_level + 1));
     if (level <= parameters.bulk_level)
       continue;
-    Key k;
-    const double size = context.box.cell_size(std::min(level, own_level));
+    Point<dim> center;
     for (unsigned int d = 0; d < dim; ++d)
-      k[d] = static_cast<int>(std::floor((samples[s].center[d] - context.box.lower[d]) / size));
+      center[d] = samples[s].center[d];
+    const Key k = context.box.position_of(center, std::min(level, own_level));
     if (level <= own_level)
       insert_with_ancestors(k, level, needed);
     else
       for (unsigned int child = 0; child < GeometryInfo<dim>::max_children_per_cell; ++child)
-      {
-        Key child_key;
-        for (unsigned int d = 0; d < dim; ++d)
-          child_key[d] = 2 * k[d] + ((child >> d) & 1);
-        insert_with_ancestors(child_key, level, needed);
-      }
+        insert_with_ancestors(child_position<dim>(k, child), level, needed);
   }
 }
 

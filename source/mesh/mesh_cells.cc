@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <gemmule/base/cartesian_index.h>
 #include <gemmule/base/exceptions.h>
 #include <gemmule/base/gather.h>
+#include <gemmule/mesh/box_lattice.h>
 #include <gemmule/mesh/mesh_cells.h>
 
-#include <cmath>
-#include <set>
+#include <algorithm>
 
 namespace Gemmule
 {
@@ -12,50 +13,29 @@ using namespace dealii;
 
 namespace
 {
-  /** Gives cells their integer position; the coarse cells are known on all ranks. */
   template <int dim>
-  class CellPositions
+  LatticeKey<dim> key_of(const MeshCell<dim> &cell)
   {
-  public:
-    explicit CellPositions(const Triangulation<dim> &triangulation)
-    {
-      for (unsigned int d = 0; d < dim; ++d)
-        origin[d] = std::numeric_limits<double>::max();
-      for (const auto &cell : triangulation.cell_iterators_on_level(0))
-      {
-        coarse_size = cell->extent_in_direction(0);
-        for (unsigned int d = 0; d < dim; ++d)
-          origin[d] = std::min(origin[d], cell->vertex(0)[d]);
-      }
-    }
-
-    MeshCell<dim> of(const typename Triangulation<dim>::cell_iterator &cell) const
-    {
-      MeshCell<dim> result;
-      result.level = cell->level();
-      const double size = std::ldexp(coarse_size, -cell->level());
-      for (unsigned int d = 0; d < dim; ++d)
-        result.position[d] = static_cast<unsigned int>(std::lround((cell->vertex(0)[d] - origin[d]) / size));
-      return result;
-    }
-
-  private:
-    Point<dim> origin;
-    double coarse_size = 0.;
-  };
-
-  template <int dim>
-  using Key = std::pair<unsigned int, std::array<unsigned int, dim>>;
+    LatticeKey<dim> key;
+    std::copy(cell.position.begin(), cell.position.end(), key.begin());
+    return key;
+  }
 } // namespace
 
 template <int dim>
 std::vector<MeshCell<dim>> gather_mesh_cells(const parallel::distributed::Triangulation<dim> &triangulation)
 {
-  const CellPositions<dim> positions(triangulation);
+  const BoxLattice<dim> box(triangulation);
   std::vector<MeshCell<dim>> local;
   for (const auto &cell : triangulation.active_cell_iterators())
     if (cell->is_locally_owned())
-      local.push_back(positions.of(cell));
+    {
+      const auto key = box.position_of_corner(cell->vertex(0), cell->level());
+      MeshCell<dim> here;
+      here.level = cell->level();
+      std::copy(key.begin(), key.end(), here.position.begin());
+      local.push_back(here);
+    }
   return gather_plain(local, triangulation.get_communicator());
 }
 
@@ -65,29 +45,34 @@ void refine_to_cells(parallel::distributed::Triangulation<dim> &triangulation,
 {
   const MPI_Comm communicator = triangulation.get_communicator();
   // Whatever has a descendant among the cells has to be refined.
-  std::set<Key<dim>> to_refine;
+  unsigned int finest_level = 0;
+  for (const auto &cell : cells)
+    finest_level = std::max(finest_level, cell.level);
+  std::vector<LatticeSet<dim>> to_refine(finest_level + 1), wanted(finest_level + 1);
   for (const auto &cell : cells)
   {
-    auto position = cell.position;
+    LatticeKey<dim> key = key_of(cell);
+    wanted[cell.level].insert(key);
     for (unsigned int level = cell.level; level > 0; --level)
     {
-      for (unsigned int &component : position)
-        component /= 2;
-      if (!to_refine.insert({level - 1, position}).second)
+      key = parent_position<dim>(key);
+      if (!to_refine[level - 1].insert(key).second)
         break;
     }
   }
 
-  const CellPositions<dim> positions(triangulation);
+  const BoxLattice<dim> box(triangulation);
+  const auto is_among = [&](const auto &cell, const std::vector<LatticeSet<dim>> &set)
+  {
+    const unsigned int level = cell->level();
+    return level < set.size() && set[level].count(box.position_of_corner(cell->vertex(0), level)) > 0;
+  };
   while (true)
   {
     unsigned int n_flagged = 0;
     for (const auto &cell : triangulation.active_cell_iterators())
-      if (cell->is_locally_owned())
+      if (cell->is_locally_owned() && is_among(cell, to_refine))
       {
-        const MeshCell<dim> here = positions.of(cell);
-        if (to_refine.count({here.level, here.position}) == 0)
-          continue;
         cell->set_refine_flag();
         ++n_flagged;
       }
@@ -96,16 +81,9 @@ void refine_to_cells(parallel::distributed::Triangulation<dim> &triangulation,
     triangulation.execute_coarsening_and_refinement();
   }
 
-  std::set<Key<dim>> wanted;
-  for (const auto &cell : cells)
-    wanted.insert({cell.level, cell.position});
   unsigned int n_wrong = 0;
   for (const auto &cell : triangulation.active_cell_iterators())
-    if (cell->is_locally_owned())
-    {
-      const MeshCell<dim> here = positions.of(cell);
-      n_wrong += wanted.count({here.level, here.position}) == 0;
-    }
+    n_wrong += cell->is_locally_owned() && !is_among(cell, wanted);
   if (Utilities::MPI::sum(n_wrong, communicator) > 0 || triangulation.n_global_active_cells() != cells.size())
     throw SimulationError(
         "The mesh of the checkpoint does not fit into the box: it was written by another "

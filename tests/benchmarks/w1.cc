@@ -104,7 +104,7 @@ double x_max(const CoupledSystem<2> &system)
   const auto &cells = system.get_geometry().cut_cells();
   const auto patches =
       gather_patches(cells, std::vector<MembraneFields<2>>(cells.size()), system.mesh().get_communicator());
-  const auto corner = lower_corner<2>(system.get_parameters().domain);
+  const auto corner = system.get_parameters().domain.lower<2>();
   return MembraneProjection<2>(patches, corner).project(dealii::Point<2>(true_x_max, 0.)).point[0];
 }
 

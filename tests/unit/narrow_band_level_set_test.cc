@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Which side of a membrane a point is on: by the level set within the band, by the winding number beyond it.
 #include <gemmule/geometry/membrane_transport.h>
+#include <gemmule/geometry/narrow_band_level_set.h>
 
 #include <deal.II/base/function_signed_distance.h>
 
@@ -77,4 +78,32 @@ TEST(NarrowBandLevelSet, WithinTheBandTheLevelSetTellsTheSide)
   ASSERT_TRUE(band.value(Point<2>(0.6, 0.5)));
   EXPECT_NEAR(*band.value(Point<2>(0.6, 0.5)), 0.35, 1e-14);
   EXPECT_FALSE(band.value(Point<2>(1.6, 0.5)));
+}
+
+// Nodes lie there, and the points of the membrane would be summed over for each of them.
+TEST(NarrowBandLevelSet, TheBandIncludesItsUpperFaces)
+{
+  // Two cells beside each other with phi = x - 0.25, and points that would say the opposite.
+  std::vector<LevelSetCell<2>> cells(2);
+  for (unsigned int c = 0; c < 2; ++c)
+  {
+    cells[c].corner = Point<2>(c, 0.);
+    cells[c].size = 1.;
+    for (unsigned int i = 0; i < TensorLagrange<2, 3>::n; ++i)
+      cells[c].level_set[i] = c + TensorLagrange<2, 3>::node(i)[0] - 0.25;
+  }
+  MembraneCloud<2> cloud;
+  cloud.points = {Point<2>(0.25, 0.5)};
+  cloud.normals = {Point<2>(-1., 0.)};
+  cloud.weights = {100.};
+  const NarrowBandLevelSet<2> band(cells, Point<2>(), &cloud);
+  for (const auto &x :
+       {Point<2>(0.1, 1.), Point<2>(1., 1.), Point<2>(2., 0.5), Point<2>(2., 1.), Point<2>(2., 0.)})
+  {
+    ASSERT_TRUE(band.value(x)) << x;
+    EXPECT_NEAR(*band.value(x), x[0] - 0.25, 1e-14) << x;
+    EXPECT_EQ(band.with_side(-1., x), std::copysign(1., x[0] - 0.25)) << x;
+  }
+  EXPECT_FALSE(band.value(Point<2>(2.001, 0.5)));
+  EXPECT_FALSE(band.value(Point<2>(0.5, 1.001)));
 }

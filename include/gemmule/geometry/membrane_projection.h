@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include <gemmule/base/lattice_key.h>
+#include <gemmule/base/cartesian_index.h>
 #include <gemmule/geometry/membrane_snapshot.h>
-#include <gemmule/geometry/narrow_band_level_set.h>
 
-#include <unordered_map>
 #include <vector>
 
 namespace Gemmule
@@ -74,18 +72,13 @@ public:
   double curvature(const Sample &sample) const;
 
 private:
-  using Key = LatticeKey<dim>;
-
-  Key bin_of(const dealii::Point<dim> &x) const;
   unsigned int nearest_sample(const dealii::Point<dim> &x) const;
   ClosestPoint<dim> newton(const dealii::Point<dim> &x, unsigned int patch, dealii::Point<dim> y) const;
 
   const std::vector<MembranePatch<dim>> &patches;
-  dealii::Point<dim> origin;
   std::vector<Sample> all_samples;
   CartesianCellMap<dim> patch_map;
-  double bin_size = 0.;
-  std::unordered_map<Key, std::vector<unsigned int>, LatticeKeyHash<dim>> bins; ///< samples by bin
+  PointBins<dim> bins; ///< of the size of the largest patch, with the indices of samples
   std::vector<unsigned int> primary_samples; ///< one per patch, for far points
 };
 } // namespace Gemmule

@@ -1,33 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include <gemmule/base/lattice_key.h>
+#include <gemmule/base/cartesian_index.h>
 #include <gemmule/geometry/membrane_snapshot.h>
 
 #include <optional>
-#include <unordered_map>
 #include <vector>
 
 namespace Gemmule
 {
-/** Finds the cell of a collection of Cartesian cells (different sizes, no overlap) that holds a point. */
-template <int dim>
-class CartesianCellMap
-{
-public:
-  explicit CartesianCellMap(const dealii::Point<dim> &origin) : origin(origin) {}
-
-  void insert(const dealii::Point<dim> &corner, double size, unsigned int id);
-  /** @return the id, or -1. A point on a face belongs to the cell with the larger coordinates. */
-  int find(const dealii::Point<dim> &x) const;
-
-private:
-  using Key = LatticeKey<dim>;
-  dealii::Point<dim> origin;
-  std::vector<double> sizes;
-  std::vector<std::unordered_map<Key, unsigned int, LatticeKeyHash<dim>>> cells; ///< for each size
-};
-
 /** The level set of an earlier time level in the band around its membrane, whatever the mesh is now. */
 template <int dim>
 class NarrowBandLevelSet

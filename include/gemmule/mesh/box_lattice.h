@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include <gemmule/base/lattice_key.h>
+#include <gemmule/base/cube_lattice.h>
 
 #include <deal.II/base/point.h>
 #include <deal.II/grid/tria.h>
@@ -45,22 +45,19 @@ struct BoxLattice
     return std::ldexp(coarse_size, -static_cast<int>(level));
   }
 
+  /** The cells of @p level, as many as there are in the box, and beyond it. */
+  CubeLattice<dim> of_level(const unsigned int level) const { return {lower, cell_size(level)}; }
+
   /** Position in the lattice of @p level of the cell with that lower corner. */
   LatticeKey<dim> position_of_corner(const dealii::Point<dim> &corner, const unsigned int level) const
   {
-    LatticeKey<dim> key;
-    for (unsigned int d = 0; d < dim; ++d)
-      key[d] = static_cast<int>(std::lround((corner[d] - lower[d]) / cell_size(level)));
-    return key;
+    return of_level(level).position_of_corner(corner);
   }
 
   /** Position in the lattice of @p level of the cell that holds @p x; of two that share it the upper one. */
   LatticeKey<dim> position_of(const dealii::Point<dim> &x, const unsigned int level) const
   {
-    LatticeKey<dim> key;
-    for (unsigned int d = 0; d < dim; ++d)
-      key[d] = static_cast<int>(std::floor((x[d] - lower[d]) / cell_size(level)));
-    return key;
+    return of_level(level).position_of(x);
   }
 
   /** Coarsest level whose cells are not larger than @p size; a large level for sizes of zero and below. */

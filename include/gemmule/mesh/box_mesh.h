@@ -3,7 +3,6 @@
 
 #include <gemmule/parameters/domain.h>
 
-#include <deal.II/base/point.h>
 #include <deal.II/distributed/tria.h>
 
 namespace Gemmule
@@ -12,8 +11,4 @@ namespace Gemmule
 template <int dim>
 void make_box_mesh(dealii::parallel::distributed::Triangulation<dim> &triangulation,
                    const Parameters::Domain &domain, unsigned int level);
-
-/** Lower corner of the box. */
-template <int dim>
-dealii::Point<dim> lower_corner(const Parameters::Domain &domain);
 } // namespace Gemmule

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include <gemmule/base/lattice_key.h>
+#include <gemmule/base/cartesian_index.h>
 #include <gemmule/mesh/refinement_criterion.h>
 
-#include <unordered_map>
+#include <vector>
 
 namespace Gemmule
 {
@@ -32,27 +32,20 @@ public:
   std::size_t largest_bin() const;
 
 private:
-  using Key = LatticeKey<dim>;
   struct Sheet
   {
     dealii::Point<dim> point;
     dealii::Tensor<1, dim> normal;
     unsigned int time_level;
   };
-  struct Hash
-  {
-    double radius; ///< of the bins, and of the distances that are found
-    std::unordered_map<Key, std::vector<Sheet>, LatticeKeyHash<dim>> bins;
-  };
-
-  Key key(const dealii::Point<dim> &point, double size) const;
-  /** Width of the narrowest gap at a sample, at most the radius of the coarsest hash. */
+  /** Width of the narrowest gap at a sample, at most the largest distance that is found. */
   double gap(const MembraneSample<dim> &sample) const;
 
   BoxLattice<dim> box;
   double cells;
   unsigned int membrane_level, finest_level;
   double largest_margin;
-  std::vector<Hash> hashes; ///< finest first
+  /** One for each level, finest first; their bins are as large as the distances that are found. */
+  std::vector<PointBins<dim, Sheet>> sheets;
 };
 } // namespace Gemmule

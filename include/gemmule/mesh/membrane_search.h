@@ -84,7 +84,6 @@ private:
   /** One level: what is left goes to @p next, what is found to @p result. */
   void visit(const Cubes &cubes, unsigned int level, bool samples_decide, Cubes &next,
              FoundMembrane<dim> &result) const;
-  dealii::Point<dim> corner(const LatticeKey<dim> &cube, unsigned int level) const;
   Samples sample(const dealii::Point<dim> &corner, double size, unsigned int n) const;
   /** Adds the root between two samples, which has others at the distance @p spacing. */
   void add_root(const Samples &samples, const std::pair<unsigned int, unsigned int> &pair, double spacing,

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include <gemmule/base/lattice_key.h>
+#include <gemmule/base/cartesian_index.h>
 #include <gemmule/mesh/refinement_criteria.h>
 
 #include <deal.II/distributed/tria.h>
 
 #include <array>
 #include <memory>
-#include <unordered_set>
 #include <vector>
 
 namespace Gemmule
@@ -61,7 +60,7 @@ public:
 private:
   using Key = LatticeKey<dim>;
   /** For each level the cells that must have at least that level. */
-  using NeededCells = std::vector<std::unordered_set<Key, LatticeKeyHash<dim>>>;
+  using NeededCells = std::vector<LatticeSet<dim>>;
   /** The level that is needed at each sample. */
   using Levels = std::vector<unsigned int>;
 
