@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <gemmule/parameters/expression_checker.h>
 #include <gemmule/parameters/expression_complaints.h>
-#include <gemmule/parameters/text.h>
+#include <gemmule/parameters/expression_syntax_complaints.h>
 
 namespace Gemmule::Parameters
 {
@@ -41,7 +41,8 @@ namespace
   {
   public:
     Checker(const std::string &expression, const ExpressionScope &scope)
-        : expression(expression), scope(scope), tokens(expression_tokens(expression)), complaints(expression)
+        : scope(scope), tokens(expression_tokens(expression)), complaints(expression),
+          syntax(tokens, scope, complaints)
     {
       // muParser's own _pi has twelve digits.
       for (const Token &token : tokens)
@@ -54,7 +55,7 @@ namespace
     {
       const Part whole = conditional();
       if (here().kind != Token::end)
-        refuse_rest();
+        syntax.about_rest(next);
       if (whole.is_truth)
         complaints.about_result(whole);
       CheckedExpression result;
@@ -76,8 +77,7 @@ namespace
       ++next;
       const Part first = conditional();
       if (!here().is(":"))
-        throw ExpressionError("has a '?' without its ':', " + place(here()) + ".",
-                              "Write 'if(condition, value, other value)'.");
+        syntax.about_choice_without_end(next);
       ++next;
       const Part second = conditional();
       if (first.is_truth != second.is_truth)
@@ -173,8 +173,7 @@ namespace
         return power();
       const Token &operation = tokens[next++];
       if (here().is("-") || here().is("+"))
-        throw ExpressionError("has two signs in a row, " + place(here()) + ".",
-                              "Leave them out, or put the second into parentheses, as in -(-x).");
+        syntax.about_two_signs(next);
       const Part operand = power();
       if (operand.is_truth)
         complaints.about_sign(operation.text, operand);
@@ -188,10 +187,7 @@ namespace
         return base;
       ++next;
       if (here().kind == Token::number && here().text == "1" && tokens[next + 1].is("/"))
-        throw ExpressionError("has '^1/', which takes the power first and divides then.",
-                              "Write '" + complaints.text(base) + "^(1/" +
-                                  (tokens[next + 2].kind == Token::number ? tokens[next + 2].text : "...") +
-                                  ")'.");
+        syntax.about_root(base, next);
       return computed(base, "^", sign());
     }
 
@@ -206,19 +202,18 @@ namespace
     {
       const Level level(depth);
       const Token &token = here();
-      const Part result = token.kind == Token::number                ? number()
-                          : token.kind == Token::name                ? named()
-                          : token.kind == Token::opening_parenthesis ? enclosed()
-                          : token.is("!")                            ? negation()
-                                                                     : refuse_missing_operand();
+      if (token.kind != Token::number && token.kind != Token::name &&
+          token.kind != Token::opening_parenthesis && !token.is("!"))
+        syntax.about_missing_operand(next);
+      const Part result = token.kind == Token::number ? number()
+                          : token.kind == Token::name ? named()
+                          : token.is("!")             ? negation()
+                                                      : enclosed();
       if (here().is("!"))
-        throw ExpressionError(
-            "has a '!' behind " + complaints.quoted(result) + ".",
-            "'!' means 'not' and stands in front of a condition, as in !(x>0); there are no "
-            "factorials.");
+        syntax.about_factorial(result);
       if (here().kind == Token::number || here().kind == Token::name ||
           here().kind == Token::opening_parenthesis)
-        refuse_neighbour(result);
+        syntax.about_missing_operator(result, next);
       return result;
     }
 
@@ -231,23 +226,22 @@ namespace
 
     Part enclosed()
     {
-      const Token &opening = tokens[next++];
+      const unsigned int opening = next++;
       if (here().kind == Token::closing_parenthesis)
-        throw ExpressionError("has empty parentheses, " + place(opening) + ".", "");
+        syntax.about_empty_parentheses(opening);
       Part result = conditional();
       if (here().kind == Token::comma)
-        throw ExpressionError("has a comma in parentheses that belong to no function, " + place(here()) + ".",
-                              "Decimals are written with a point.");
+        syntax.about_comma(next);
       close(opening);
-      result.begin = opening.position;
+      result.begin = tokens[opening].position;
       result.end = tokens[next - 1].behind();
       return result;
     }
 
-    void close(const Token &opening)
+    void close(const unsigned int opening)
     {
       if (here().kind != Token::closing_parenthesis)
-        throw ExpressionError("lacks a ')' for the '(' " + place(opening) + ".", "");
+        syntax.about_open_parenthesis(opening);
       ++next;
     }
 
@@ -265,29 +259,21 @@ namespace
 
     Part named()
     {
-      const Token &token = tokens[next++];
-      const bool is_called = here().kind == Token::opening_parenthesis;
+      const unsigned int mark = next++;
+      const Token &token = tokens[mark];
       if (scope.has_quantity(token.text))
         return Part(false, token.position, token.behind(), quantity(token.text));
       const ExpressionFunction *const function = find_expression_function(token.text);
       if (function == nullptr)
-        refuse_unknown(token, is_called);
-      if (is_called)
-        return call(*function, token);
-
-      std::string remedy = "Write '" + function->usage + "'.";
-      if (here().is("^"))
-        remedy = "Write a power behind the argument, as in " + token.text + "(x)^2.";
-      else if (function->least_arguments == 1 && here().kind == Token::name &&
-               scope.has_quantity(here().text))
-        remedy = "Write '" + token.text + "(" + here().text + ")'.";
-      throw ExpressionError("names the function '" + token.text + "' without its argument in parentheses.",
-                            remedy);
+        syntax.about_unknown_name(mark);
+      if (here().kind != Token::opening_parenthesis)
+        syntax.about_missing_argument(*function, mark);
+      return call(*function, token);
     }
 
     Part call(const ExpressionFunction &function, const Token &token)
     {
-      const Token &opening = tokens[next++];
+      const unsigned int opening = next++;
       std::vector<Part> arguments;
       if (here().kind != Token::closing_parenthesis)
         arguments.push_back(conditional());
@@ -330,82 +316,12 @@ namespace
       return node(Kind::variable, name, {});
     }
 
-    [[noreturn]] Part refuse_missing_operand() const
-    {
-      const Token &token = here();
-      throw ExpressionError("lacks a number, a name or a parenthesis " +
-                                (next > 0 ? "behind '" + tokens[next - 1].text + "', " : "") + place(token) +
-                                ".",
-                            "");
-    }
-
-    [[noreturn]] void refuse_rest() const
-    {
-      if (here().kind == Token::comma)
-        throw ExpressionError("has a comma outside of parentheses; decimals are written with a point, and "
-                              "components are separated by semicolons.",
-                              "");
-      if (here().kind == Token::closing_parenthesis)
-        throw ExpressionError("has a ')' without its '(', " + place(here()) + ".", "");
-      throw ExpressionError("has a ':' without its '?', " + place(here()) + ".",
-                            "Write 'if(condition, value, other value)'.");
-    }
-
-    [[noreturn]] void refuse_unknown(const Token &token, const bool is_called) const
-    {
-      if (token.text.compare(0, 4, "rand") == 0) // each process would draw numbers of its own
-        throw ExpressionError(
-            "uses random numbers, which differ from process to process and from run to run.",
-            "Use sines and cosines.");
-      throw ExpressionError((is_called ? "calls " : "has the name ") + in_quotes(token.text) +
-                                (is_called ? ", which is no function here." : ", which is not known here."),
-                            remedy_for_unknown_name(token.text, is_called, scope));
-    }
-
-    /** Two parts without an operator between them. */
-    [[noreturn]] void refuse_neighbour(const Part &part) const
-    {
-      const Token &token = here();
-      if (token.kind == Token::name && !scope.has_quantity(token.text) &&
-          find_expression_function(token.text) == nullptr)
-        refuse_unknown(token, tokens[next + 1].kind == Token::opening_parenthesis);
-      const std::string complaint =
-          "has no operator between " + complaints.quoted(part) + " and " + in_quotes(token.text) + ".";
-      if (part.is_truth)
-        throw ExpressionError(complaint, "Write '&&' or '||' there.");
-      refuse_forgotten_product(part, complaint);
-    }
-
-    [[noreturn]] void refuse_forgotten_product(const Part &part, const std::string &complaint) const
-    {
-      const Token &token = here();
-      if (token.kind == Token::number && tokens[next - 1].kind == Token::number)
-        throw ExpressionError(complaint, "Numbers are written without blanks in them.");
-      const bool is_called = token.kind == Token::opening_parenthesis || find_expression_function(token.text);
-      const std::string product =
-          complaints.text(part) + "*" + (token.kind == Token::name ? printable(shortened(token.text)) : "") +
-          (token.kind == Token::number ? token.text : "") + (is_called ? "(...)" : "");
-      bool is_below_a_line = false;
-      for (unsigned int i = 1; i < tokens.size(); ++i)
-        is_below_a_line = is_below_a_line || (tokens[i].position == part.begin && tokens[i - 1].is("/"));
-      throw ExpressionError(complaint, is_below_a_line
-                                           ? "Write '(" + product +
-                                                 ")' if all of it stands below the fraction line, '" +
-                                                 product + "' if only its first part does."
-                                           : "Write '" + product + "' for a product.");
-    }
-
     const Token &here() const { return tokens[next]; }
-    std::string place(const Token &token) const
-    {
-      return token.kind == Token::end ? "at its end"
-                                      : "at its character " + std::to_string(token.position + 1);
-    }
 
-    const std::string &expression;
     const ExpressionScope &scope;
     const std::vector<Token> tokens;
     const ExpressionComplaints complaints;
+    const SyntaxComplaints syntax;
     /** The tokens as muParser gets them. */
     std::vector<std::string> written;
     unsigned int next = 0, depth = 0;
