@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Expressions of t that make no sense any more once the run has begun.
-#include <gtest/gtest.h>
 #include <ostream>
 
-#include "support/run_program.h"
-#include "support/statistics_table.h"
-#include "support/test_size.h"
+#include "survival_fixture.h"
 
 using namespace Gemmule::Testing;
 
@@ -51,19 +48,19 @@ const std::vector<FailingExpression> failing_expressions = {
      "the velocity at the walls is too large to compute with"}};
 } // namespace
 
-class ExpressionOfTime : public testing::TestWithParam<std::tuple<FailingExpression, unsigned int>>
+class ExpressionOfTime : public RunsOfACase,
+                         public testing::WithParamInterface<std::tuple<FailingExpression, unsigned int>>
 {
 protected:
-  ExpressionOfTime() { directory.write("case.prm", coarse_case); }
+  ExpressionOfTime() : RunsOfACase(coarse_case) {}
 
   /** Runs the case until the expression fails. */
   void expect_failure(const std::string &options)
   {
     const auto &[expression, n_ranks] = GetParam();
-    const Result result = run_gemmule(directory,
-                                      "case.prm --output run --set '" + expression.parameter + "=" +
-                                          expression.value + "' " + options,
-                                      n_ranks, time_limit(60));
+    const Result result = run_gemmule(
+        directory, run("--set '" + expression.parameter + "=" + expression.value + "' " + options), n_ranks,
+        time_limit(60));
     EXPECT_EQ(result.exit_code, 2) << result.out << result.err;
     // mpirun has something to say as well, but the program says it once.
     const std::string start =
@@ -81,8 +78,6 @@ protected:
     const auto times = read_text_table(directory.file("run/statistics.csv")).at("time");
     EXPECT_DOUBLE_EQ(std::stod(times.back()), 0.04);
   }
-
-  const TemporaryDirectory directory;
 };
 
 TEST_P(ExpressionOfTime, ThatFailsEndsTheRunWithItsStateSaved)

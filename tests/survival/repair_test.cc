@@ -43,24 +43,16 @@ subsection Checkpoint
   set Number of checkpoints kept = 100
 end
 )";
-
-std::size_t count(const std::string &text, const std::string &part)
-{
-  std::size_t n = 0;
-  for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1))
-    ++n;
-  return n;
-}
 } // namespace
 
-class Repair : public testing::Test
+class Repair : public RunsOfACase
 {
 protected:
-  Repair() { directory.write("case.prm", folding_case); }
+  Repair() : RunsOfACase(folding_case) {}
 
-  Result run(const std::string &results, const std::string &options = "", const unsigned int n_ranks = 1)
+  Result result_of(const std::string &output, const std::string &options = "", const unsigned int n_ranks = 1)
   {
-    return run_gemmule(directory, "case.prm --output " + results + " " + options, n_ranks, time_limit(120));
+    return run_gemmule(directory, run(options, output), n_ranks, time_limit(120));
   }
   /** To the end, with one warning; area and masses are exact. */
   void expect_repaired(const Result &result, const std::string &results) const
@@ -74,26 +66,24 @@ protected:
         EXPECT_NEAR(std::stod(value) / std::stod(table.at(name).front()), 1., 3e-12) << name;
   }
   std::string path(const std::string &results) const { return directory.file(results); }
-
-  const TemporaryDirectory directory;
 };
 
 TEST_F(Repair, WithoutItTheRunEnds)
 {
-  const Result result = run("run", "--set 'Membrane/Repair unresolved shapes=false'");
+  const Result result = result_of("run", "--set 'Membrane/Repair unresolved shapes=false'");
   EXPECT_EQ(result.exit_code, 2) << result.out;
   EXPECT_NE(result.err.find("'Smallest time step'"), std::string::npos) << result.err;
 }
 
 TEST_F(Repair, WithItTheRunGoesOnAlsoOnTwoRanks)
 {
-  expect_repaired(run("run", "", 2), "run");
+  expect_repaired(result_of("run", "", 2), "run");
 }
 
 TEST_F(Repair, AResumedRunRepairsInTheSameWay)
 {
   namespace fs = std::filesystem;
-  const Result uninterrupted = run("run");
+  const Result uninterrupted = result_of("run");
   expect_repaired(uninterrupted, "run");
   std::vector<std::string> checkpoints;
   for (const auto &entry : fs::directory_iterator(path("run/checkpoint")))
@@ -107,7 +97,7 @@ TEST_F(Repair, AResumedRunRepairsInTheSameWay)
     fs::copy(path("run"), path(results), fs::copy_options::recursive);
     for (unsigned int i = kept + 1; i < checkpoints.size(); ++i)
       fs::remove_all(path(results) + "/checkpoint/" + checkpoints[i]);
-    const Result resumed = run(results, "--resume");
+    const Result resumed = result_of(results, "--resume");
     ASSERT_EQ(resumed.exit_code, 0) << resumed.err;
     const unsigned int n_repairs = count(uninterrupted.out, "has been repaired");
     EXPECT_EQ(count(resumed.out, "has been repaired"), kept == 2 ? n_repairs : n_repairs - 1);

@@ -35,25 +35,14 @@ end
 
 /** So many cells at the membrane that setting it up takes a second or more. */
 const std::string long_setup = "--set 'Mesh/Membrane level=9' --set 'Mesh/Phase boundary level=9' ";
-
-std::size_t count(const std::string &text, const std::string &part)
-{
-  std::size_t n = 0;
-  for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1))
-    ++n;
-  return n;
-}
 } // namespace
 
-class Signals : public testing::Test
+class Signals : public RunsOfACase
 {
 protected:
-  Signals() { directory.write("case.prm", many_steps); }
+  Signals() : RunsOfACase(many_steps) {}
 
-  std::size_t n_rows() const { return Gemmule::Testing::n_rows(directory.file("run")); }
-  std::string log() const { return directory.read("run/log.txt"); }
-  std::string errors() const { return directory.read(".stderr"); }
-  std::string run(const std::string &options = "") const { return "case.prm --output run " + options; }
+  std::size_t n_rows() const { return Gemmule::Testing::n_rows(results()); }
   void wait_for_set_up(RunningProgram &program) const
   {
     // The last one that it begins to catch.
@@ -65,16 +54,16 @@ protected:
     ASSERT_TRUE(program.wait_for([&] { return n_rows() >= rows_before + 2; })) << errors();
   }
   /** The files of the results with their content. */
-  std::map<std::string, std::string> results() const
+  std::map<std::string, std::string> files() const
   {
-    std::map<std::string, std::string> files;
-    for (const auto &entry : std::filesystem::recursive_directory_iterator(directory.file("run")))
+    std::map<std::string, std::string> contents;
+    for (const auto &entry : std::filesystem::recursive_directory_iterator(results()))
       if (entry.is_regular_file())
       {
         const std::string name = std::filesystem::relative(entry.path(), directory.path).string();
-        files[name] = directory.read(name);
+        contents[name] = directory.read(name);
       }
-    return files;
+    return contents;
   }
   /** A run that a time limit has stopped before its first step. */
   void make_stopped_run(const std::string &options = "") const
@@ -85,7 +74,6 @@ protected:
 
   static constexpr const char *setup_message =
       " while the case was being set up; nothing has been written.\n";
-  const TemporaryDirectory directory;
 };
 
 TEST_F(Signals, EachSavesTheStateAndIsNamed)
@@ -107,7 +95,7 @@ TEST_F(Signals, EachSavesTheStateAndIsNamed)
 TEST_F(Signals, EachEndsTheSetUpAtOnceAndTouchesNothing)
 {
   make_stopped_run();
-  const auto before = results();
+  const auto before = files();
   for (const auto &[signal, name] : all_signals)
   {
     RunningProgram program(directory, run(long_setup));
@@ -116,19 +104,19 @@ TEST_F(Signals, EachEndsTheSetUpAtOnceAndTouchesNothing)
     EXPECT_EQ(program.wait(), 128 + signal) << name;
     EXPECT_EQ(errors(), "gemmule: stopped by " + name + setup_message);
   }
-  EXPECT_TRUE(results() == before);
+  EXPECT_TRUE(files() == before);
 }
 
 TEST_F(Signals, TheSetUpOfAResumedRunEndsAtOnceAndTouchesNothing)
 {
   make_stopped_run(long_setup);
-  const auto before = results();
+  const auto before = files();
   RunningProgram program(directory, run("--resume " + long_setup));
   wait_for_set_up(program);
   program.send(SIGTERM);
   EXPECT_EQ(program.wait(), 128 + SIGTERM);
   EXPECT_EQ(errors(), std::string("gemmule: stopped by SIGTERM") + setup_message);
-  EXPECT_TRUE(results() == before);
+  EXPECT_TRUE(files() == before);
 }
 
 TEST_F(Signals, TheSetUpOnSeveralRanksEndsAtOnce)
@@ -151,7 +139,7 @@ TEST_F(Signals, TheSetUpOnSeveralRanksEndsAtOnce)
       program.send(SIGUSR1);
     EXPECT_EQ(program.wait(), 128 + SIGUSR1) << errors();
     EXPECT_LE(count(errors(), setup_message), 1u) << errors();
-    EXPECT_FALSE(std::filesystem::exists(directory.file("run")));
+    EXPECT_FALSE(std::filesystem::exists(results()));
   }
 }
 
@@ -187,7 +175,7 @@ TEST_F(Signals, ThoseThatWereIgnoredBeforeStayIgnored)
     program.send(SIGTERM);
     EXPECT_EQ(program.wait(), 3) << errors();
     EXPECT_NE(log().find("stopped by signal SIGTERM at t = "), std::string::npos) << log();
-    std::filesystem::remove_all(directory.file("run"));
+    std::filesystem::remove_all(results());
   }
 }
 
@@ -230,7 +218,7 @@ TEST_F(Signals, ASecondCtrlCEndsTheRunWithoutHarm)
   int code = 3;
   for (unsigned int attempt = 0; attempt < 10 && code == 3; ++attempt)
   {
-    std::filesystem::remove_all(directory.file("run"));
+    std::filesystem::remove_all(results());
     make_stopped_run();
     // The newest one: of the two that are kept, a new one replaces the other.
     std::string newest;

@@ -177,11 +177,39 @@ private:
   const double tolerance;
 };
 
-/** A directory for runs, and the results of one that nothing interrupts, shared by all tests. */
-class Survival : public testing::Test
+/** How often @p part occurs in @p text. */
+inline std::size_t count(const std::string &text, const std::string &part)
+{
+  std::size_t n = 0;
+  for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1))
+    ++n;
+  return n;
+}
+
+/** A directory with a parameter file, case.prm, for runs of it whose results go to the folder run/. */
+class RunsOfACase : public testing::Test
 {
 protected:
-  Survival() { directory.write("case.prm", small_case); }
+  explicit RunsOfACase(const std::string &parameters) { directory.write("case.prm", parameters); }
+
+  /** Arguments of the run under test. */
+  std::string run(const std::string &options = "", const std::string &output = "run") const
+  {
+    return "case.prm --output " + output + " " + options;
+  }
+  std::string results() const { return directory.file("run"); }
+  std::string log() const { return directory.read("run/log.txt"); }
+  /** What a RunningProgram has written to the standard error. */
+  std::string errors() const { return directory.read(".stderr"); }
+
+  const TemporaryDirectory directory;
+};
+
+/** Runs of the small case, and the results of one that nothing interrupts, shared by all tests. */
+class Survival : public RunsOfACase
+{
+protected:
+  Survival() : RunsOfACase(small_case) {}
   static void SetUpTestSuite()
   {
     reference_directory = new TemporaryDirectory;
@@ -200,13 +228,6 @@ protected:
   }
   static std::string reference() { return reference_directory->file("reference"); }
 
-  std::string results() const { return directory.file("run"); }
-  /** Arguments of the run under test. */
-  std::string run(const std::string &options = "", const std::string &output = "run") const
-  {
-    return "case.prm --output " + output + " " + options;
-  }
-  std::string log() const { return directory.read("run/log.txt"); }
   /** Numbers of the checkpoints on disk that say that they are complete. */
   std::vector<std::string> complete_checkpoints() const
   {
@@ -225,7 +246,6 @@ protected:
     ASSERT_EQ(result.exit_code, 0) << result.out << result.err;
   }
 
-  const TemporaryDirectory directory;
   static inline TemporaryDirectory *reference_directory = nullptr;
   static inline double reference_seconds = 0.;
 };
