@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Benchmark W1 (design section 5): what a given accuracy costs.
+// Benchmark W1 (doc/verification.md, section 6): what a given accuracy costs.
 //
 // The ellipse x^2 + 2 y^2 = 0.25 relaxes under the constant tension 1 in the box [-1, 1]^2 without slip, Ca =
 // 1, equal viscosities. The truth is a boundary-integral solution, accurate to 1e-9. Each resolution is run

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Verification ladder, step 1 (design section 5): lengths, areas and normals from the cut-cell rules.
+// doc/verification.md, section 1: lengths, areas and normals from the cut-cell rules.
 #include <gemmule/geometry/cut_geometry.h>
 
 #include <deal.II/base/function_signed_distance.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Verification ladder, step 2 (design section 5): the semi-Lagrangian level set in given velocity fields.
+// doc/verification.md, section 2: the semi-Lagrangian level set in given velocity fields.
 #include <gemmule/geometry/interface.h>
 #include <gemmule/geometry/membrane_transport.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Flow driven by a circular membrane against exact solutions (design section 5, step 3).
+// Flow driven by a circular membrane against exact solutions (doc/verification.md, section 3).
 #include <deal.II/base/convergence_table.h>
 #include <deal.II/base/mpi.h>
 

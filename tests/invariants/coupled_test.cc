@@ -35,7 +35,7 @@ double balance_error(const Rows &rows, const double start = 0.)
 TEST(ParallelCoupled, EllipseUnderConstantTensionRelaxesAsTheBoundaryIntegralSolution)
 {
   const auto rows = run_case(small_case_with_tension("1"), 20, 0.01);
-  const double truth = 0.14922748; // design section 5, W1
+  const double truth = 0.14922748; // boundary-integral solution
   EXPECT_NEAR(rows.back().time, 0.2, 1e-12);
   EXPECT_NEAR(rows.back().deformation / truth, 1., 2e-3);
   EXPECT_LT(largest_drift(rows, &StatisticsRow::area), 1e-10);

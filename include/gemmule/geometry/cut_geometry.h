@@ -56,8 +56,8 @@ struct CutCell
 
 /**
  * Where the membrane (zero set of the Q3 level set, negative inside) cuts the mesh, and the quadrature rules
- * of the cut cells; computed once per step and shared by the surface equations and the flow (design section
- * 2).
+ * of the cut cells; computed once per step and shared by the surface equations and the flow (doc/method.md,
+ * "One time step").
  *
  * Cells are located by the Bernstein coefficients of phi and confirmed by the rules themselves, so that a
  * membrane that enters a cell between two nodes is found. Rules: dealii::NonMatching::QuadratureGenerator

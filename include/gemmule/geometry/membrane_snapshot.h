@@ -56,7 +56,7 @@ struct LevelSetCell
 
 /**
  * Quadrature points of the membrane at one time level with the densities there: integrals over an earlier
- * membrane are sums over its cloud, exact on any later mesh (design section 2, conservative BDF2).
+ * membrane are sums over its cloud, exact on any later mesh (doc/method-surface.md).
  */
 template <int dim>
 struct MembraneCloud

@@ -10,9 +10,10 @@ namespace Gemmule
  *
  *   w(kappa, c) = (k(c) / 2) (kappa - kappa_0(c))^2
  *
- * with curvature kappa = div n (positive on a circle) and composition c = f / fbar (design section 6;
- * Helfrich 1973). Rigidity k and spontaneous curvature kappa_0 are interpolated between the phases, constant
- * beyond them. Where tension is negative a numerical rigidity can join them. Everything is dimensionless.
+ * with curvature kappa = div n (positive on a circle) and composition c = f / fbar (doc/model.md,
+ * "Bending"; Helfrich 1973). Rigidity k and spontaneous curvature kappa_0 are interpolated between the
+ * phases, constant beyond them. Where tension is negative a numerical rigidity can join them. Everything is
+ * dimensionless.
  */
 class BendingModel
 {

@@ -23,7 +23,7 @@ struct EnergyDerivatives
  */
 EnergyDerivatives density_of_composition(double composition, double fbar, double h, double h1, double h2);
 
-/** Double-well potential g(f, fbar) whose minima are the two phases (design section 1). */
+/** Double-well potential g(f, fbar) whose minima are the two phases (doc/model.md, "Membrane"). */
 class DoubleWell
 {
 public:
@@ -31,7 +31,7 @@ public:
   virtual EnergyDerivatives evaluate(double f, double fbar) const = 0;
 };
 
-/** Surface energy density gamma(f, fbar) (design section 1). */
+/** Surface energy density gamma(f, fbar) (doc/model.md, "Membrane"). */
 class SurfaceEnergy
 {
 public:

@@ -5,7 +5,7 @@
 
 namespace Gemmule
 {
-/** gamma = exp(-x c), c = f / fbar; x is the contrast between the phases (design section 1). */
+/** gamma = exp(-x c), c = f / fbar; x is the contrast between the phases (doc/model.md, "Membrane"). */
 class ExponentialSurfaceEnergy : public SurfaceEnergy
 {
 public:

@@ -13,7 +13,7 @@ namespace Gemmule
 {
 /**
  * The membrane's constitutive law: what its two energies and dimensionless numbers say about chemical
- * potential, tension and energy at one point (design section 1). Everything is dimensionless.
+ * potential, tension and energy at one point (doc/model.md, "Membrane"). Everything is dimensionless.
  */
 class MembraneModel
 {
@@ -97,7 +97,7 @@ public:
 
   /**
    * Says in one line that the total concentration is ill-posed with these energies and this regularisation
-   * (design section 1, "Well-posedness of the model"); nothing if it is well-posed.
+   * (doc/model.md, "Where the model is ill-posed"); nothing if it is well-posed.
    */
   std::optional<std::string> ill_posedness_warning() const;
 

@@ -5,7 +5,7 @@
 
 namespace Gemmule
 {
-/** g = c^2 (1 - c)^2 / 4, c = f / fbar (design section 1). */
+/** g = c^2 (1 - c)^2 / 4, c = f / fbar (doc/model.md, "Membrane"). */
 class QuarticDoubleWell : public DoubleWell
 {
 public:

@@ -13,8 +13,8 @@ namespace Gemmule
 {
 /**
  * Write the fields of the box: solution-NNNNN.h5 per output time (running number from 0; attributes `time`
- * and the entries of Provenance) and one solution.xdmf, which ParaView opens as a time series (design section
- * 4).
+ * and the entries of Provenance) and one solution.xdmf, which ParaView opens as a time series
+ * (doc/output.md).
  */
 template <int dim>
 class FieldWriter

@@ -39,7 +39,7 @@ struct InterfaceSamples
 /**
  * Write interface.h5, one group `step_NNNNN` (running number from 0) per output time with the attribute
  * `time` and the datasets of InterfaceSamples under their names, and interface.xdmf, which shows them in
- * ParaView (design section 4). The file's root carries `schema_version` and the entries of Provenance.
+ * ParaView (doc/output.md). The file's root carries `schema_version` and the entries of Provenance.
  *
  * The file is closed between two groups, so that it can be read while the program runs. A kill while a group
  * is written may damage it: checkpoints keep a copy.

@@ -9,7 +9,7 @@
 namespace Gemmule
 {
 /**
- * What is reported of one accepted time step: the columns of statistics.csv (design section 4), all
+ * What is reported of one accepted time step: the columns of statistics.csv (doc/output.md), all
  * dimensionless. Integrals over the membrane are written int_G.
  */
 struct StatisticsRow

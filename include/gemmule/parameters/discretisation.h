@@ -8,7 +8,7 @@ class ParameterHandler;
 
 namespace Gemmule::Parameters
 {
-/** Section "Flow discretisation": penalties of the unfitted Stokes method (design, section 2). */
+/** Section "Flow discretisation": penalties of the unfitted Stokes method (doc/method-flow.md). */
 struct Flow
 {
   /** gamma of (gamma eta_Gamma / h) [u].[v]. */
@@ -24,8 +24,8 @@ struct Flow
   void check() const;
 };
 
-/** Section "Surface discretisation": trace finite elements and the Cahn-Hilliard solve (design, section 2).
- */
+/** Section "Surface discretisation": trace finite elements and the Cahn-Hilliard solve
+ * (doc/method-surface.md). */
 struct Surface
 {
   /** rho of (rho / h) (n.grad f)(n.grad v) on the active mesh. */

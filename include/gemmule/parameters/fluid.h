@@ -8,7 +8,7 @@ class ParameterHandler;
 
 namespace Gemmule::Parameters
 {
-/** Section "Fluid": the dimensionless numbers of the Stokes problem (design, section 1). */
+/** Section "Fluid": the dimensionless numbers of the Stokes problem (doc/model.md, "Flow"). */
 struct Fluid
 {
   /** Ca: viscous stress over membrane tension; [T n] = (1/Ca)(sigma kappa n - grad_s sigma). */

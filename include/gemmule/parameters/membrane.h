@@ -17,8 +17,8 @@ enum class TensionModel
   prescribed   ///< a given function of space and time; no surface transport is solved
 };
 
-/** Section "Membrane": initial state, energies and dimensionless numbers of the membrane (design, section 1).
- */
+/** Section "Membrane": initial state, energies and dimensionless numbers of the membrane (doc/model.md,
+ * "Membrane"). */
 struct Membrane
 {
   /** Expression, negative inside; its zero set is the initial membrane. */
@@ -49,7 +49,8 @@ struct Membrane
   void check() const;
 };
 
-/** How the total concentration, ill-posed as the model stands, is regularised (design, section 1). */
+/** How the total concentration, ill-posed as the model stands, is regularised (doc/model.md, "The total
+ * concentration"). */
 enum class RegularisationModel
 {
   compressibility,
@@ -80,8 +81,8 @@ enum class Interpolation
   smooth_step
 };
 
-/** Section "Membrane/Bending": Helfrich energy (k/2)(curvature - spontaneous curvature)^2 (design, section
- * 6). */
+/** Section "Membrane/Bending": Helfrich energy (k/2)(curvature - spontaneous curvature)^2 (doc/model.md,
+ * "Bending"). */
 struct Bending
 {
   /** k of the phases with composition 0 and 1. */

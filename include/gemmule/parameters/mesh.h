@@ -8,7 +8,7 @@ class ParameterHandler;
 
 namespace Gemmule::Parameters
 {
-/** Section "Mesh": levels of refinement and when to remesh (design, section 2, "Adaptivity"). */
+/** Section "Mesh": levels of refinement and when to remesh (doc/method.md, "Adaptivity"). */
 struct Mesh
 {
   /** Uniform refinement of the box: its shortest edge is divided into 2^level cells. */

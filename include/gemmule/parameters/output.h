@@ -10,7 +10,7 @@ class ParameterHandler;
 
 namespace Gemmule::Parameters
 {
-/** Section "Output": how often what is written (design, section 4). */
+/** Section "Output": how often what is written (doc/output.md). */
 struct Output
 {
   /** Simulated time between two outputs of velocity and pressure; 0: none. */

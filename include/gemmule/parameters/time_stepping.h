@@ -8,7 +8,7 @@ class ParameterHandler;
 
 namespace Gemmule::Parameters
 {
-/** Section "Time stepping": step size control (design, section 2, "Coupling and time"). */
+/** Section "Time stepping": step size control (doc/method.md, "Step size"). */
 struct TimeStepping
 {
   /** false: all steps have the size #initial_step. */
