@@ -145,7 +145,7 @@ void expect_orders(const std::string &name, const Motion &motion)
   }
   print(name + ", order in dt", in_time);
   // The kinks of the test functions that the membrane crosses cost accuracy until a step is a small part of a
-  // cell: the order shows in the finer steps (doc/method-surface.md).
+  // cell: the order shows in the finer steps (doc/measurements.md).
   EXPECT_GT(std::log2(errors[1] / errors[3]) / 2., 1.8);
 }
 } // namespace
