@@ -113,7 +113,9 @@ int compute(const AllParameters &parameters, const CommandLine &command, std::ve
 
 int main(int argc, char **argv)
 {
-  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  // PETSc, which deal.II may contain, would complain about options that it does not know.
+  int n_arguments = 1;
+  dealii::Utilities::MPI::MPI_InitFinalize mpi(n_arguments, argv, 1);
   TerminationSignals::keep_ignored();
   // Its own communicator: a failure may leave messages behind in that of the computation.
   const MPI_Comm communicator = dealii::Utilities::MPI::duplicate_communicator(MPI_COMM_WORLD);
