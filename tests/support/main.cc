@@ -6,9 +6,14 @@
 
 int main(int argc, char **argv)
 {
-  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   ::testing::InitGoogleTest(&argc, argv);
-  if (dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) != 0)
+  // PETSc, which deal.II may contain, would complain about options that it does not know.
+  int n_arguments = 1;
+  dealii::Utilities::MPI::MPI_InitFinalize mpi(n_arguments, argv, 1);
+  const bool reports = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
+  if (::testing::GTEST_FLAG(list_tests))
+    return reports ? RUN_ALL_TESTS() : 0;
+  if (!reports)
     delete ::testing::UnitTest::GetInstance()->listeners().Release(
         ::testing::UnitTest::GetInstance()->listeners().default_result_printer());
   const int result = RUN_ALL_TESTS();

@@ -5,30 +5,17 @@
 #include <filesystem>
 #include <fstream>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <sys/wait.h>
 #include <unistd.h>
 
 namespace Gemmule::Testing
 {
-/** A directory that vanishes with the object. */
-class TemporaryDirectory
+/** A directory that the program is run in. */
+struct Directory
 {
-public:
-  TemporaryDirectory()
-  {
-    std::string pattern = (std::filesystem::temp_directory_path() / "gemmule-XXXXXX").string();
-    if (mkdtemp(pattern.data()) == nullptr)
-      throw std::runtime_error("cannot create a temporary directory");
-    path = pattern;
-  }
-  ~TemporaryDirectory()
-  {
-    std::error_code ignored;
-    std::filesystem::remove_all(path, ignored);
-  }
-  TemporaryDirectory(const TemporaryDirectory &) = delete;
-  TemporaryDirectory &operator=(const TemporaryDirectory &) = delete;
+  explicit Directory(const std::filesystem::path &path) : path(path) {}
 
   std::string file(const std::string &name) const { return (path / name).string(); }
   /** Writes a file and returns its path. */
@@ -48,6 +35,29 @@ public:
   std::filesystem::path path;
 };
 
+/** One that vanishes with the object. */
+class TemporaryDirectory : public Directory
+{
+public:
+  TemporaryDirectory() : Directory(make()) {}
+  ~TemporaryDirectory()
+  {
+    std::error_code ignored;
+    std::filesystem::remove_all(path, ignored);
+  }
+  TemporaryDirectory(const TemporaryDirectory &) = delete;
+  TemporaryDirectory &operator=(const TemporaryDirectory &) = delete;
+
+private:
+  static std::string make()
+  {
+    std::string pattern = (std::filesystem::temp_directory_path() / "gemmule-XXXXXX").string();
+    if (mkdtemp(pattern.data()) == nullptr)
+      throw std::runtime_error("cannot create a temporary directory");
+    return pattern;
+  }
+};
+
 struct Result
 {
   int exit_code;
@@ -56,10 +66,11 @@ struct Result
 
 /**
  * The command that starts the executable with arguments in shell syntax, on one process or under mpirun. The
- * environment is a clean one, except for the sanitizers' options: that of an MPI program, as the tests are,
- * would confuse another. Output goes to .stdout and .stderr of @p directory.
+ * environment is a clean one, except for the sanitizers' options and what makes Open MPI start quickly: that
+ * of an MPI program, as the tests are, would confuse another. Output goes to .stdout and .stderr of @p
+ * directory.
  */
-inline std::string command_of(const TemporaryDirectory &directory, const std::string &arguments,
+inline std::string command_of(const Directory &directory, const std::string &arguments,
                               const unsigned int n_processes, const std::string &before,
                               const std::string &prefix)
 {
@@ -68,6 +79,8 @@ inline std::string command_of(const TemporaryDirectory &directory, const std::st
   return "cd '" + directory.path.string() + "' && " + before +
          "env -i PATH=\"$PATH\" HOME=\"$HOME\" OMPI_ALLOW_RUN_AS_ROOT=1 "
          "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMP_NUM_THREADS=1 DEAL_II_NUM_THREADS=1 "
+         "${OMPI_MCA_pml:+OMPI_MCA_pml=$OMPI_MCA_pml} "
+         "${OMPI_MCA_ess_singleton_isolated:+OMPI_MCA_ess_singleton_isolated=1} "
          "ASAN_OPTIONS=\"$ASAN_OPTIONS\" LSAN_OPTIONS=\"$LSAN_OPTIONS\" UBSAN_OPTIONS=\"$UBSAN_OPTIONS\" " +
          prefix + launcher + GEMMULE_EXECUTABLE + " " + arguments + " > .stdout 2> .stderr";
 }
@@ -76,7 +89,7 @@ inline std::string command_of(const TemporaryDirectory &directory, const std::st
  * Runs the executable in @p directory with arguments in shell syntax, on one process or under mpirun.
  * @param prefix of the command, for example "timeout 60 "
  */
-inline Result run_gemmule(const TemporaryDirectory &directory, const std::string &arguments,
+inline Result run_gemmule(const Directory &directory, const std::string &arguments,
                           const unsigned int n_processes = 1, const std::string &prefix = "")
 {
   const std::string command = command_of(directory, arguments, n_processes, "", prefix);

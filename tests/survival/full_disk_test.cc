@@ -17,10 +17,13 @@ protected:
   static void SetUpTestSuite()
   {
     Survival::SetUpTestSuite();
-    ASSERT_EQ(run_gemmule(*reference_directory, std::string("case.prm --output brief ") + brief).exit_code,
+    brief_directory = std::make_unique<TemporaryDirectory>();
+    brief_directory->write("case.prm", small_case);
+    ASSERT_EQ(run_gemmule(*brief_directory, std::string("case.prm --output reference ") + brief).exit_code,
               0);
   }
-  static std::string brief_reference() { return reference_directory->file("brief"); }
+  static void TearDownTestSuite() { brief_directory.reset(); }
+  static std::string brief_reference() { return brief_directory->file("reference"); }
 
   /** A small file system at the place of the results' parent; unmounted at the end. */
   class SmallDisk
@@ -46,6 +49,9 @@ protected:
       else
         EXPECT_NE(entry.path().extension(), ".part") << entry.path();
   }
+
+private:
+  static inline std::unique_ptr<TemporaryDirectory> brief_directory;
 };
 
 TEST_F(FullDisk, OfAnySizeTheAdviceOfTheMessageWorks)

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <gtest/gtest.h>
 #include <map>
+#include <memory>
+#include <optional>
 #include <set>
 
 #include "support/running_program.h"
@@ -186,6 +188,20 @@ inline std::size_t count(const std::string &text, const std::string &part)
   return n;
 }
 
+/** Runs the small case to its end, into reference/ of @p directory, and writes down how many seconds it
+ * takes. */
+inline void compute_reference(const Directory &directory)
+{
+  const auto start = std::chrono::steady_clock::now();
+  directory.write("case.prm", small_case);
+  const Result result = run_gemmule(directory, "case.prm --output reference");
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  ASSERT_GE(n_rows(directory.file("reference")), 30u) << "the run has to be long enough to be interrupted";
+  ASSERT_GE(field_files(directory.file("reference")).size(), 4u);
+  const std::chrono::duration<double> duration = std::chrono::steady_clock::now() - start;
+  directory.write("seconds", std::to_string(duration.count()));
+}
+
 /** A directory with a parameter file, case.prm, for runs of it whose results go to the folder run/. */
 class RunsOfACase : public testing::Test
 {
@@ -205,26 +221,27 @@ protected:
   const TemporaryDirectory directory;
 };
 
-/** Runs of the small case, and the results of one that nothing interrupts, shared by all tests. */
+/**
+ * Runs of the small case, and the results of one that nothing interrupts, shared by all tests. They are in the
+ * directory that the environment variable GEMMULE_SURVIVAL_REFERENCE names, where UninterruptedRun.IsComputed
+ * puts them: ctest runs that test first, and each test in a process of its own. Without the variable they are
+ * computed by the process.
+ */
 class Survival : public RunsOfACase
 {
 protected:
   Survival() : RunsOfACase(small_case) {}
   static void SetUpTestSuite()
   {
-    reference_directory = new TemporaryDirectory;
-    const auto start = std::chrono::steady_clock::now();
-    reference_directory->write("case.prm", small_case);
-    const Result result = run_gemmule(*reference_directory, "case.prm --output reference");
-    ASSERT_EQ(result.exit_code, 0) << result.err;
-    reference_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    ASSERT_GE(n_rows(reference()), 30u) << "the run has to be long enough to be interrupted";
-    ASSERT_GE(field_files(reference()).size(), 4u);
-  }
-  static void TearDownTestSuite()
-  {
-    delete reference_directory;
-    reference_directory = nullptr;
+    const char *const prepared = std::getenv("GEMMULE_SURVIVAL_REFERENCE");
+    if (prepared == nullptr && own_reference == nullptr)
+    {
+      own_reference = std::make_unique<TemporaryDirectory>();
+      compute_reference(*own_reference);
+    }
+    reference_directory.emplace(prepared != nullptr ? prepared : own_reference->path);
+    ASSERT_TRUE(std::ifstream(reference_directory->file("seconds")) >> reference_seconds)
+        << reference_directory->path << " does not hold the results of UninterruptedRun.IsComputed";
   }
   static std::string reference() { return reference_directory->file("reference"); }
 
@@ -246,7 +263,10 @@ protected:
     ASSERT_EQ(result.exit_code, 0) << result.out << result.err;
   }
 
-  static inline TemporaryDirectory *reference_directory = nullptr;
+  static inline std::optional<Directory> reference_directory;
   static inline double reference_seconds = 0.;
+
+private:
+  static inline std::unique_ptr<TemporaryDirectory> own_reference;
 };
 } // namespace Gemmule::Testing
