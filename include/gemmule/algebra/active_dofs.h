@@ -16,7 +16,7 @@ namespace Gemmule
 {
 /**
  * Numbers the degrees of freedom that take part in an unfitted discretisation: those of the active cells, and
- * the masters of their constrained ones, iterated to closure (doc/method-flow.md, "Unknowns"; FE_Nothing is
+ * the masters of their constrained ones, iterated to closure (doc/method-flow.md; FE_Nothing is
  * avoided because of spurious constraints at hanging nodes). Constrained and inactive dofs get no number.
  */
 template <int dim>

@@ -30,8 +30,8 @@ struct RepairReport
 };
 
 /**
- * Membrane, surface phases and flow on the adaptive mesh, and one time step of them (design section 2,
- * "Coupling and time"): the membrane moves with the extrapolated velocity, then the concentrations follow on
+ * Membrane, surface phases and flow on the adaptive mesh, and one time step of them (doc/method.md,
+ * "One time step"): the membrane moves with the extrapolated velocity, then the concentrations follow on
  * the new membrane, then tension and Stokes flow. The accepted states are snapshots that do not depend on the
  * mesh; a step that is rejected leaves them bitwise as they were.
  */

@@ -12,8 +12,8 @@
 namespace Gemmule
 {
 /**
- * Dirichlet data u_infinity on the boundary of the box as constraints of the outside velocity (design section
- * 1).
+ * Dirichlet data u_infinity on the boundary of the box as constraints of the outside velocity
+ * (doc/method-flow.md).
  *
  * The nodal interpolant of a solenoidal field has a small net flux through the boundary, for which the
  * discrete incompressible problem has no solution. It is removed by a multiple of the outer normal.

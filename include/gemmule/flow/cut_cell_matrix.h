@@ -10,8 +10,8 @@
 
 namespace Gemmule
 {
-/** Viscosities of the two fluids ([0] inside) and the weights of the interface averages (design section 2).
- */
+/** Viscosities of the two fluids ([0] inside) and the weights of the interface averages
+ * (doc/method-flow.md). */
 struct FluidPair
 {
   /** @param viscosity_ratio inside over outside; the outside viscosity is the unit */

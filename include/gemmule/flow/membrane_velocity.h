@@ -9,7 +9,7 @@ namespace Gemmule
 {
 /**
  * The velocity <u> = w2 u1 + w1 u2 of the membrane on one cut cell as a Q2 polynomial: what moves the
- * membrane (design section 2).
+ * membrane (doc/method-flow.md).
  */
 template <int dim>
 struct MembraneVelocity

@@ -28,7 +28,7 @@ struct GhostPenaltyMatrices
 
 /**
  * Element matrices on the unit cell, computed once: cells are cubes aligned with the axes, so that those of
- * all uncut cells and of all faces follow by scaling (design section 2).
+ * all uncut cells and of all faces follow by scaling.
  */
 template <int dim>
 class StokesReferenceMatrices

@@ -7,7 +7,7 @@ namespace Gemmule
 {
 /**
  * The force of the tension, -(1/Ca) int sigma div_s <v>, which needs neither curvature nor derivatives of the
- * tension (doc/method-flow.md, "Forces of the membrane").
+ * tension (doc/method-flow.md).
  */
 template <int dim>
 class TensionForce : public FlowTerm<dim>

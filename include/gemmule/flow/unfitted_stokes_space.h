@@ -18,7 +18,7 @@
 namespace Gemmule
 {
 /**
- * Velocity-pressure pairs Q2-Q1 of both fluids on one mesh (doc/method-flow.md, "Spaces"): one Taylor-Hood
+ * Velocity-pressure pairs Q2-Q1 of both fluids on one mesh (doc/method-flow.md): one Taylor-Hood
  * DoFHandler, of whose dofs each fluid has its own copy, active on the cells that the fluid touches. Each
  * fluid is a field of two parts, velocity and pressure (FlowBlock).
  *

@@ -18,7 +18,7 @@ namespace Parameters
 
 /**
  * Phase separation on the moving membrane: concentration f and chemical potential mu by trace finite
- * elements, the conservative BDF and Newton's method (design section 2, "Surface fields"):
+ * elements, the conservative BDF and Newton's method (doc/method-surface.md):
  *
  *   (1/dt)(a0 int_n f v + a1 int_{n-1} f v + a2 int_{n-2} f v) - int_n f u.grad v
  *     + (1/Pe) int_n grad_s mu.grad_s v + (rho/h) [s(f, v) + (1/Pe) s(mu, v)] = 0

@@ -7,8 +7,7 @@
 namespace Gemmule
 {
 /**
- * Transport of the total concentration by the conservative Eulerian scheme (design section 2, "Surface
- * fields"):
+ * Transport of the total concentration by the conservative Eulerian scheme (doc/method-surface.md):
  *
  *   (1/dt)(a0 int_n fbar v + a1 int_{n-1} fbar v + a2 int_{n-2} fbar v) - int_n fbar u.grad v
  *     + D int_n grad_s fbar.grad_s v + (rho/h) int_active (n.grad fbar)(n.grad v) = 0

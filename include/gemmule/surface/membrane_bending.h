@@ -11,7 +11,7 @@ namespace Gemmule
 {
 /**
  * Curvature and bending moment of the membrane in the trace space (Q2), from weak forms with first
- * derivatives only (design section 6; Dziuk 2008 for the curvature vector):
+ * derivatives only (doc/method-surface.md; Dziuk 2008 for the curvature vector):
  *
  *   int K.w + h int_active (n.grad K).(n.grad w) = int (I - n n^T) : grad w      for all vectors w,
  *   int m v + h int_active (n.grad m)(n.grad v) = int k(c) (kappa - kappa_0(c)) v  for all v,   kappa = K.n.

@@ -7,7 +7,7 @@
 namespace Gemmule
 {
 /**
- * Update smoothing (design section 1, "Well-posedness of the model"): the rate of change r at a fixed point
+ * Update smoothing (doc/model.md, "The total concentration"): the rate of change r at a fixed point
  * of the normally extended total concentration is low-pass filtered, r = (I + delta Laplace_s^2)^{-1} (-S),
  * with S = u.grad_s fbar + fbar div_s u taken of the predicted fbar. As a mixed problem of second order on
  * the membrane at t_n,

@@ -21,7 +21,7 @@ namespace Parameters
 
 /**
  * The surface equations of one time step: total concentration, then concentration and chemical potential
- * (design section 2, "Surface fields"), and what follows from them: tension, energies, masses and the cloud
+ * (doc/method-surface.md), and what follows from them: tension, energies, masses and the cloud
  * that later steps need. Nothing is carried from step to step in here: all memory is in the clouds and fields
  * that SurfaceStep hands over, so that a step can be repeated, or continued on another mesh.
  */

@@ -51,7 +51,7 @@ struct TraceCell
 /**
  * The trace finite element space of the surface fields: continuous Q2 on the cells of the active mesh, that
  * is those that the membrane cuts now, those that contain points of the earlier membranes, and those in
- * between (design section 2, "Surface fields"; Olshanskii, Reusken, Grande, SINUM 47 (2009)).
+ * between (doc/method-surface.md; Olshanskii, Reusken, Grande, SINUM 47 (2009)).
  *
  * The values off the membrane are determined by the stabilisation (rho/h) int_active (n.grad f)(n.grad v)
  * alone, which extends a field constantly along normals as far as the earlier membranes are (Lehrenfeld,
