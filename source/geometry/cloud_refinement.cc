@@ -49,10 +49,15 @@ namespace
                                      const parallel::distributed::Triangulation<dim> &triangulation)
   {
     std::vector<double> sizes(patches.size());
+    double largest = 0.;
     for (unsigned int p = 0; p < patches.size(); ++p)
+    {
       sizes[p] = patches[p].size;
+      largest = std::max(largest, sizes[p]);
+    }
     for (const auto &cell : triangulation.active_cell_iterators())
-      if (cell->is_locally_owned())
+      // Most cells can be in no patch that is larger.
+      if (cell->is_locally_owned() && cell->extent_in_direction(0) < largest)
       {
         const int p = map.find(cell->center());
         if (p >= 0)
