@@ -66,7 +66,7 @@ void VesicleProblem<dim>::warn_of_negative_tension()
                        "Grid-scale rigidity') makes the fastest wrinkles " +
                        rounded(2. * numbers::PI * std::sqrt(3. * parameters.bending.grid_scale_rigidity)) +
                        " cells long. What depends on them depends on the mesh (doc/model.md).");
-  else if (system->get_bending() == nullptr && system->get_model().bending().grid_scale_rigidity() == 0.)
+  else if (system->get_bending() == nullptr && system->grid_scale_rigidity() == 0.)
     log->warn_once(
         "negative tension",
         since + "there is no bending rigidity: short waves of the shape grow at the rate |sigma| k / 4, "

@@ -94,16 +94,20 @@ void exchange(ArrayExchange &archive, CoupledState<dim> &state)
   archive("dt_preceding", state.levels.step_to_n_minus_1);
   static_assert(sizeof(state.levels) == 2 * sizeof(MembraneSnapshot<dim>) + 4 * sizeof(double),
                 "AcceptedLevels has a new member: give it a line here, then count it");
-  archive("area_0", state.area_0);
-  archive("arclength_0", state.arclength_0);
+  archive("area_0", state.reference.area);
+  archive("arclength_0", state.reference.arclength);
   archive("capillary_limit", state.levels.limits.capillary);
   archive("displacement_limit", state.levels.limits.displacement);
   archive("grid_scale_rigidity", state.grid_scale_rigidity);
   archive.integers("mesh", state.mesh);
-  archive("steps_since_remeshing", state.steps_since_remeshing);
+  archive("steps_since_remeshing", state.mesh_policy.steps_since_remeshing);
   archive("lowered_levels", state.lowered_levels);
-  archive("n_steps_on_mesh", state.n_steps_on_mesh);
-  archive.scope("flow_samples", [&] { exchange_flow_samples(archive, state.flow_samples); });
+  archive("n_steps_on_mesh", state.mesh_policy.n_steps_on_mesh);
+  static_assert(sizeof(state.mesh_policy) == 2 * sizeof(unsigned int) + sizeof(std::vector<double>),
+                "MeshPolicyMemory has a new member: give it a line here, then count it");
+  static_assert(sizeof(state.reference) == 2 * sizeof(double),
+                "ReferenceMeasures has a new member: give it a line here, then count it");
+  archive.scope("flow_samples", [&] { exchange_flow_samples(archive, state.mesh_policy.flow_samples); });
   archive.scope("box", [&] { exchange_level_set(archive, state.level_set); });
   archive("level_set_is_set_everywhere", state.level_set_is_set_everywhere);
 }

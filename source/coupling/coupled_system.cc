@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <gemmule/base/gather.h>
 #include <gemmule/coupling/coupled_system.h>
 #include <gemmule/coupling/initial_checks.h>
 #include <gemmule/coupling/initial_membrane.h>
-#include <gemmule/geometry/membrane_transport.h>
+#include <gemmule/coupling/phase_step.h>
 #include <gemmule/mesh/box_mesh.h>
 
-#include <cmath>
+#include <utility>
 
 namespace Gemmule
 {
@@ -16,33 +15,6 @@ namespace
 {
   // Mesh and flow at the start depend on each other when the flow's error is a criterion.
   constexpr unsigned int largest_number_of_initial_meshes = 6;
-
-  /** 10-90 % width of the equilibrium profile (1 + tanh(s / (2 sqrt(2) C))) / 2; 0 without phases. */
-  double phase_boundary_width(const Parameters::Membrane &membrane)
-  {
-    return membrane.tension_model == Parameters::TensionModel::phase_field
-               ? 4. * std::sqrt(2.) * std::atanh(0.8) * membrane.cahn_number
-               : 0.;
-  }
-
-  /** Q2 nodal values as Q3 nodal values of the same polynomial. */
-  template <int dim, typename T>
-  std::array<T, TensorLagrange<dim, 3>::n> raise_degree(const std::array<T, TensorLagrange<dim, 2>::n> &u)
-  {
-    using Table = std::array<typename TensorLagrange<dim, 2>::Values, TensorLagrange<dim, 3>::n>;
-    static const Table table = []
-    {
-      Table t;
-      for (unsigned int i = 0; i < t.size(); ++i)
-        TensorLagrange<dim, 2>::evaluate(TensorLagrange<dim, 3>::node(i), t[i]);
-      return t;
-    }();
-    std::array<T, TensorLagrange<dim, 3>::n> raised{};
-    for (unsigned int i = 0; i < raised.size(); ++i)
-      for (unsigned int j = 0; j < u.size(); ++j)
-        raised[i] += table[i][j] * u[j];
-    return raised;
-  }
 } // namespace
 
 template <int dim>
@@ -61,19 +33,37 @@ CoupledSystem<dim>::CoupledSystem(const AllParameters &parameters_, const MPI_Co
       // Without the communicator: with it, every exception would be preceded by a banner on the screen.
       timer_output(std::cout, TimerOutput::never, TimerOutput::cpu_and_wall_times),
       model(parameters.membrane, parameters.regularisation, parameters.bending), interface(triangulation),
+      bending(triangulation, model.bending(), parameters.bending.grid_scale_rigidity, timer_output),
       membrane_flow(triangulation, parameters, model),
-      adaptation(triangulation, parameters.mesh, phase_boundary_width(parameters.membrane))
+      mesh_policy(triangulation, parameters.mesh, parameters.domain, parameters.membrane, timer_output),
+      interface_step(interface, triangulation, mesh_policy, history, reference, parameters.arclength,
+                     timer_output)
 {
   if (parameters.membrane.tension_model == Parameters::TensionModel::phase_field)
     surface = std::make_unique<SurfaceSolver<dim>>(triangulation, model, parameters.surface);
-  if (model.bending().is_active())
-    bending = std::make_unique<MembraneBending<dim>>(triangulation, model.bending());
+}
+
+template <int dim>
+void CoupledSystem<dim>::reinit_mesh()
+{
+  TimerOutput::Scope scope(timer_output, "mesh: degrees of freedom");
+  interface.reinit_mesh();
+  reinit_spaces();
+}
+
+template <int dim>
+void CoupledSystem<dim>::reinit_spaces()
+{
+  if (surface)
+    surface->reinit_mesh();
+  bending.reinit_mesh();
+  membrane_flow.reinit_mesh();
 }
 
 template <int dim>
 void CoupledSystem<dim>::initialise()
 {
-  InitialMembrane<dim> initial(parameters, triangulation, interface, adaptation);
+  InitialMembrane<dim> initial(parameters, triangulation, interface, mesh_policy.adaptation());
   initial.find();
   warnings_of_initial_state = initial.warnings();
   initial.make_mesh();
@@ -82,104 +72,183 @@ void CoupledSystem<dim>::initialise()
   {
     reinit_spaces();
     initial.make_level_set();
-    const MembranePointValues *const curvature = compute_curvature();
+    bending.compute_curvature(interface);
     if (surface)
-      initial.make_phases(*surface, curvature);
-    area_0 = interface.geometry().enclosed_volume();
-    arclength_0 = parameters.arclength.reference_arclength > 0. ? parameters.arclength.reference_arclength
-                                                                : interface.geometry().measure();
+      initial.make_phases(*surface, bending.curvature());
+    reference.area = interface.geometry().enclosed_volume();
+    reference.arclength = parameters.arclength.reference_arclength > 0.
+                              ? parameters.arclength.reference_arclength
+                              : interface.geometry().measure();
     solve_flow(0., parameters.time_stepping.initial_step, nullptr);
-    sample_flow();
-    if (flow_samples.empty() || i == largest_number_of_initial_meshes || !initial.refine_mesh(flow_samples))
+    mesh_policy.sample_flow(get_flow());
+    if (mesh_policy.flow_samples().empty() || i == largest_number_of_initial_meshes ||
+        !initial.refine_mesh(mesh_policy.flow_samples()))
       break;
   }
 
   InitialChecks<dim>(parameters).flow(get_flow().max_velocity());
-  start_history(0.);
+  begin_history(0.);
 }
 
 template <int dim>
-void CoupledSystem<dim>::start_history(const double time)
+void CoupledSystem<dim>::begin_history(const double time)
 {
-  std::vector<TransportedFields<dim>> at_rest(interface.geometry().cut_cells().size());
-  for (unsigned int c = 0; c < at_rest.size(); ++c)
-    for (unsigned int i = 0; i < MembraneFields<dim>::n; ++i)
-      at_rest[c].velocity_1_back[i] = raise_degree<dim>(get_flow().membrane_velocity()[c].nodal)[i];
-  history.begin(take_snapshot(time, at_rest), membrane_flow.time_step_limits(interface.geometry()));
+  history.begin(take_snapshot(time, origin, level_on_mesh(), fields_without_past(get_flow())),
+                membrane_flow.time_step_limits(interface.geometry()));
   last_computed_time = time;
   resist_negative_tension();
 }
 
 template <int dim>
-const MembranePointValues *CoupledSystem<dim>::compute_curvature()
+StepErrors CoupledSystem<dim>::try_step(const double dt)
 {
-  if (!bending)
-    return nullptr;
-  TimerOutput::Scope scope(timer_output, "surface: curvature");
-  bending->compute_curvature(interface);
-  return &bending->curvature();
+  const TimeStep step = history.next_step(dt);
+  const double time = history.time() + dt;
+  const MembraneProjection<dim> membrane(history.level_n().patches, origin);
+  MembraneMotion<dim> motion(membrane, step);
+  TrialClouds<dim> clouds(history, triangulation);
+  move_interface(motion, clouds);
+  bending.compute_curvature(interface);
+
+  std::vector<TransportedFields<dim>> transported;
+  {
+    TimerOutput::Scope scope(timer_output, "geometry: transported fields");
+    transported = transport_fields(motion, interface.geometry().cut_cells());
+  }
+  CutCellScalar<dim> predicted;
+  if (surface)
+  {
+    TimerOutput::Scope scope(timer_output, "surface: phases");
+    predicted = PhaseStep<dim>(*surface, interface, history)
+                    .advance(step, clouds, membrane, transported, bending.curvature());
+  }
+
+  CutCellVector<dim> old_velocity(transported.size());
+  for (unsigned int c = 0; c < transported.size(); ++c)
+    old_velocity[c] = transported[c].velocity_1_back;
+  solve_flow(time, dt, &old_velocity);
+  last_computed_time = time;
+  trial = {take_snapshot(time, origin, level_on_mesh(), transported), dt,
+           membrane_flow.time_step_limits(interface.geometry())};
+  return estimate_step_errors(interface.geometry(), get_flow(), surface.get(), transported, predicted, step,
+                              communicator);
+}
+
+template <int dim>
+void CoupledSystem<dim>::move_interface(MembraneMotion<dim> &motion, TrialClouds<dim> &clouds)
+{
+  const auto aim = interface_step.aim(motion, clouds);
+  if (mesh_policy.adapt(motion))
+  {
+    reinit_mesh();
+    clouds.reinit_mesh();
+  }
+  interface_step.move(motion, clouds, aim);
 }
 
 template <int dim>
 void CoupledSystem<dim>::solve_flow(const double time, const double dt,
                                     const CutCellVector<dim> *old_velocity)
 {
-  membrane_flow.solve(time, dt, {interface.geometry(), surface.get(), bending.get(), arclength_0},
+  bending.compute_moment(surface.get());
+  membrane_flow.solve(time, dt, {interface.geometry(), surface.get(), bending.get(), reference.arclength},
                       old_velocity, timer_output);
 }
 
 template <int dim>
-bool CoupledSystem<dim>::has_arclength_multiplier() const
+LevelOnMesh<dim> CoupledSystem<dim>::level_on_mesh() const
 {
-  return parameters.arclength.model == Parameters::ArclengthModel::multiplier;
-}
-
-template <int dim>
-MembraneSnapshot<dim>
-CoupledSystem<dim>::take_snapshot(const double time,
-                                  const std::vector<TransportedFields<dim>> &transported) const
-{
-  const auto &cut_cells = interface.geometry().cut_cells();
-  std::vector<MembraneFields<dim>> fields(cut_cells.size());
-  for (unsigned int c = 0; c < cut_cells.size(); ++c)
-  {
-    fields[c].velocity = raise_degree<dim>(get_flow().membrane_velocity()[c].nodal);
-    fields[c].displacement = transported[c].displacement;
-    fields[c].velocity_1_back = transported[c].velocity_1_back;
-    if (has_arclength_multiplier())
-      fields[c].tension_velocity = raise_degree<dim>(membrane_flow.tension_velocity()[c].nodal);
-    if (surface)
-    {
-      fields[c].concentration = raise_degree<dim>(surface->concentration()[c]);
-      fields[c].total_concentration = raise_degree<dim>(surface->total_concentration()[c]);
-      fields[c].chemical_potential = raise_degree<dim>(surface->chemical_potential()[c]);
-      fields[c].concentration_1_back = transported[c].concentration_1_back;
-      fields[c].concentration_2_back = transported[c].concentration_2_back;
-    }
-  }
-  MembraneSnapshot<dim> snapshot;
-  snapshot.time = time;
-  snapshot.origin = origin;
-  snapshot.patches = gather_patches(cut_cells, fields, communicator);
-  snapshot.narrow_band = interface.level_set().gather_narrow_band();
-  snapshot.cloud = gather_cloud(surface ? surface->cloud() : bare_cloud(interface.geometry()), communicator);
-  return snapshot;
+  return {interface, membrane_flow, surface.get()};
 }
 
 template <int dim>
 void CoupledSystem<dim>::accept()
 {
-  ++n_steps_on_mesh;
+  mesh_policy.accept();
   history.accept(std::move(trial.level), trial.step, trial.limits);
   resist_negative_tension();
-  sample_flow();
+  mesh_policy.sample_flow(get_flow());
 }
 
 template <int dim>
 void CoupledSystem<dim>::resist_negative_tension()
 {
-  const double cell_size = parameters.domain.cell_size(adaptation.limited(parameters.mesh.membrane_level));
-  model.bending().resist_negative_tension(membrane_flow.smallest_tension(), cell_size);
+  bending.grid_scale().resist_negative_tension(membrane_flow.smallest_tension(),
+                                               mesh_policy.membrane_cell_size());
+}
+
+template <int dim>
+bool CoupledSystem<dim>::membrane_is_resolved() const
+{
+  return RepairStep<dim>(history.level_n()).is_resolved();
+}
+
+template <int dim>
+RepairReport CoupledSystem<dim>::repair_membrane()
+{
+  const double old_arclength = reference.arclength;
+  try
+  {
+    return begin_from_repaired_membrane();
+  }
+  catch (...)
+  {
+    reference.arclength = old_arclength;
+    // They may belong to a shape that is to be forgotten.
+    interface.forget_far_nodes();
+    throw;
+  }
+}
+
+template <int dim>
+RepairReport CoupledSystem<dim>::begin_from_repaired_membrane()
+{
+  const RepairStep<dim> repair(history.level_n());
+  RepairReport report;
+  {
+    TimerOutput::Scope scope(timer_output, "geometry: repair");
+    report = repair.remove_small_features(reference.area, interface);
+  }
+  interface_step.cut();
+  report.arclength_after = interface.geometry().measure();
+  bending.compute_curvature(interface);
+  if (surface)
+    repair.carry_over_concentrations(interface, bending.curvature(), *surface);
+  // The length of sheets that have merged cannot come back: the constraint holds for what is left.
+  reference.arclength *= report.arclength_after / report.arclength_before;
+  solve_flow(history.time(), parameters.time_stepping.initial_step, nullptr);
+  mesh_policy.begin_anew();
+  begin_history(history.time());
+  mesh_policy.sample_flow(get_flow());
+  return report;
+}
+
+template <int dim>
+CoupledState<dim> CoupledSystem<dim>::state() const
+{
+  CoupledState<dim> state;
+  state.levels = history.accepted();
+  state.reference = reference;
+  state.grid_scale_rigidity = grid_scale_rigidity();
+  state.mesh = gather_mesh_cells(triangulation);
+  state.mesh_policy = mesh_policy.get_memory();
+  state.lowered_levels = mesh_policy.lowered_levels();
+  state.level_set = interface.level_set().gather_cells();
+  state.level_set_is_set_everywhere = interface.level_set().is_set_everywhere();
+  return state;
+}
+
+template <int dim>
+void CoupledSystem<dim>::restore(const CoupledState<dim> &state)
+{
+  refine_to_cells(triangulation, state.mesh);
+  reinit_mesh();
+  interface.restore(state.level_set, state.level_set_is_set_everywhere);
+  mesh_policy.restore(state.mesh_policy, state.lowered_levels);
+  history.restore(state.levels);
+  reference = state.reference;
+  bending.grid_scale().set(state.grid_scale_rigidity);
+  last_computed_time = history.time();
 }
 
 template class CoupledSystem<2>;

@@ -99,7 +99,7 @@ void MembraneFlow<dim>::add_semi_implicit_terms(const Membrane &membrane, const 
       capillary_number));
   if (membrane.bending != nullptr)
     terms.push_back(std::make_shared<SemiImplicitBending<dim>>(
-        bending_stiffness_margin * coefficient * model.bending().largest_rigidity(),
+        bending_stiffness_margin * coefficient * membrane.bending->get_law().largest_rigidity(),
         membrane.bending->shared_trace_space(), old_velocity, capillary_number));
 }
 
@@ -131,13 +131,8 @@ void MembraneFlow<dim>::solve(const double time, const double dt, const Membrane
   boundary_velocity->set_time(time);
   Terms terms{std::make_shared<TensionForce<dim>>(sigma, parameters.fluid.capillary_number)};
   if (membrane.bending != nullptr)
-  {
-    const auto *const surface = membrane.surface;
-    membrane.bending->compute_moment(surface != nullptr ? &surface->concentration() : nullptr,
-                                     surface != nullptr ? &surface->total_concentration() : nullptr);
     terms.push_back(
         std::make_shared<BendingForce<dim>>(*membrane.bending, parameters.fluid.capillary_number));
-  }
   if (old_velocity != nullptr)
     add_semi_implicit_terms(membrane, dt, *old_velocity, terms);
   const auto new_constraint = make_constraint(membrane, dt);

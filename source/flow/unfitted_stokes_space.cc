@@ -127,7 +127,7 @@ void UnfittedStokesSpace<dim>::constrain_hanging_nodes()
   for (bool is_complete = false; !is_complete;)
   {
     hanging_nodes.clear();
-    hanging_nodes.reinit(complete_index_set(handler.n_dofs()));
+    hanging_nodes.reinit(used);
     DoFTools::make_hanging_node_constraints(handler, hanging_nodes);
     hanging_nodes.make_consistent_in_parallel(handler.locally_owned_dofs(), used, communicator());
     std::vector<types::global_dof_index> masters;

@@ -7,15 +7,10 @@ namespace Gemmule
 {
 double BendingModel::largest_rigidity() const
 {
-  return std::max({parameters.rigidity_0, parameters.rigidity_1, grid_scale});
+  return std::max(parameters.rigidity_0, parameters.rigidity_1);
 }
 
-void BendingModel::resist_negative_tension(const double smallest_tension, const double cell_size)
-{
-  grid_scale = parameters.grid_scale_rigidity * std::max(-smallest_tension, 0.) * cell_size * cell_size;
-}
-
-BendingModel::Local BendingModel::evaluate(const double curvature, const double composition) const
+BendingDensity BendingModel::evaluate(const double curvature, const double composition) const
 {
   // weight of phase 1, and its derivatives
   const double c = std::clamp(composition, 0., 1.);
@@ -31,7 +26,7 @@ BendingModel::Local BendingModel::evaluate(const double curvature, const double 
 
   const double rigidity_jump = parameters.rigidity_1 - parameters.rigidity_0;
   const double curvature_jump = parameters.spontaneous_curvature_1 - parameters.spontaneous_curvature_0;
-  Local local;
+  BendingDensity local;
   local.rigidity = parameters.rigidity_0 + s * rigidity_jump;
   local.spontaneous_curvature = parameters.spontaneous_curvature_0 + s * curvature_jump;
   const double d = curvature - local.spontaneous_curvature;
@@ -41,12 +36,6 @@ BendingModel::Local BendingModel::evaluate(const double curvature, const double 
   const double by_weight_twice = (local.rigidity * curvature_jump - 2. * rigidity_jump * d) * curvature_jump;
   local.by_composition = by_weight * s_c;
   local.by_composition_twice = by_weight_twice * s_c * s_c + by_weight * s_cc;
-
-  local.numerical_rigidity = std::max(grid_scale - local.rigidity, 0.);
-  local.rigidity += local.numerical_rigidity;
-  local.moment += local.numerical_rigidity * curvature;
-  local.numerical_energy = 0.5 * local.numerical_rigidity * curvature * curvature;
-  local.energy += local.numerical_energy;
   return local;
 }
 } // namespace Gemmule

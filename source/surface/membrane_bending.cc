@@ -12,8 +12,8 @@ namespace Gemmule
 using namespace dealii;
 
 template <int dim>
-MembraneBending<dim>::MembraneBending(const Triangulation<dim> &triangulation, const BendingModel &model)
-    : model(model), shared_space(std::make_shared<TraceSpace<dim>>(triangulation)), space(*shared_space),
+MembraneBending<dim>::MembraneBending(const Triangulation<dim> &triangulation, const BendingLaw &law)
+    : law(law), shared_space(std::make_shared<TraceSpace<dim>>(triangulation)), space(*shared_space),
       system(triangulation.get_communicator(), true)
 {
 }
@@ -106,7 +106,7 @@ void MembraneBending<dim>::compute_moment(const TraceField<dim> *const concentra
       const double composition =
           concentration != nullptr ? point.value((*concentration)[k]) / point.value((*total_concentration)[k])
                                    : 0.;
-      const auto bending = model.evaluate(curvature_at_points[k][q], composition);
+      const auto bending = law.evaluate(curvature_at_points[k][q], composition);
       moments[k][q] = bending.moment;
       energies[k][q] = bending.energy;
       largest_numerical_rigidity = std::max(largest_numerical_rigidity, bending.numerical_rigidity);

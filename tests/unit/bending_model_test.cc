@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <gemmule/coupling/grid_scale_rigidity.h>
 #include <gemmule/model/membrane_model.h>
 
 #include <cmath>
@@ -108,8 +109,8 @@ TEST(GridScaleRigidity, IsWhatAPhaseLacks)
   Parameters::Bending parameters;
   parameters.rigidity_0 = 2e-3;
   parameters.rigidity_1 = 1e-3;
-  parameters.grid_scale_rigidity = 0.5;
-  BendingModel model(parameters);
+  const BendingModel phases(parameters);
+  GridScaleRigidity model(phases, 0.5);
   const double h = 0.1, curvature = 3.;
   const auto numerical = [&](const double c) { return model.evaluate(curvature, c).numerical_rigidity; };
   model.resist_negative_tension(0.7, h);
@@ -133,9 +134,10 @@ TEST(GridScaleRigidity, IsWhatAPhaseLacks)
 TEST(GridScaleRigidity, AddsItsEnergyWithItsDerivative)
 {
   Parameters::Bending parameters = two_phases(Parameters::Interpolation::linear);
-  BendingModel model(parameters), bare(parameters);
+  const BendingModel bare(parameters);
+  GridScaleRigidity model(bare, 1.);
   const double curvature = 1.7, c = 0.4, eps = 1e-5, missing = 0.3;
-  model.set_grid_scale_rigidity(bare.evaluate(curvature, c).rigidity + missing);
+  model.set(bare.evaluate(curvature, c).rigidity + missing);
   const auto with = model.evaluate(curvature, c), without = bare.evaluate(curvature, c);
   EXPECT_NEAR(with.energy - without.energy, 0.15 * curvature * curvature, 1e-14);
   EXPECT_NEAR(with.numerical_energy, 0.15 * curvature * curvature, 1e-14);
@@ -146,9 +148,11 @@ TEST(GridScaleRigidity, AddsItsEnergyWithItsDerivative)
   EXPECT_DOUBLE_EQ(with.by_composition, without.by_composition);
 
   // A membrane without any rigidity of its own has it, too.
-  BendingModel soft{Parameters::Bending()};
+  const BendingModel soft{Parameters::Bending()};
+  GridScaleRigidity resisting(soft, 1.);
   EXPECT_FALSE(soft.is_active());
-  soft.set_grid_scale_rigidity(0.3);
-  EXPECT_TRUE(soft.is_active());
-  EXPECT_NEAR(soft.evaluate(2., 0.5).moment, 0.6, 1e-15);
+  EXPECT_EQ(resisting.evaluate(2., 0.5).moment, 0.);
+  resisting.set(0.3);
+  EXPECT_NEAR(resisting.evaluate(2., 0.5).moment, 0.6, 1e-15);
+  EXPECT_EQ(soft.evaluate(2., 0.5).moment, 0.) << "the law of the phases does not change";
 }

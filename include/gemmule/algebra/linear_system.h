@@ -45,6 +45,11 @@ public:
 
   const BlockNumbering &numbering() const { return blocks; }
   unsigned int n_elements() const { return n_used_elements; }
+  /** The unknowns of an element, in the numbering of the system. */
+  const std::vector<dealii::types::global_dof_index> &element_unknowns(const unsigned int element) const
+  {
+    return unknowns[element];
+  }
   const SubassembledMatrix &matrix() const { return sum; }
 
   /** Zero, with room for the unknowns of this rank's elements. */

@@ -2,8 +2,9 @@
 #pragma once
 
 #include <gemmule/coupling/history.h>
+#include <gemmule/coupling/mesh_policy.h>
+#include <gemmule/coupling/reference_measures.h>
 #include <gemmule/mesh/mesh_cells.h>
-#include <gemmule/mesh/refinement_criterion.h>
 
 namespace Gemmule
 {
@@ -20,14 +21,12 @@ template <int dim>
 struct CoupledState
 {
   AcceptedLevels<dim> levels;
-  double area_0 = 0., arclength_0 = 0.;
+  ReferenceMeasures reference;
   double grid_scale_rigidity = 0.;
 
   std::vector<MeshCell<dim>> mesh; ///< refinement has hysteresis, so that the membrane does not imply it
-  unsigned int steps_since_remeshing = 0;
-  unsigned int lowered_levels = 0;           ///< by the limit on the number of cells
-  unsigned int n_steps_on_mesh = 0;          ///< accepted ones since the last change of the mesh
-  std::vector<CellSample<dim>> flow_samples; ///< error of the current flow, if a criterion needs it
+  MeshPolicyMemory<dim> mesh_policy;
+  unsigned int lowered_levels = 0; ///< by the limit on the number of cells
   /** Of all cells: far from the membrane the level set stays from the last change of the mesh. */
   std::vector<LevelSetCell<dim>> level_set;
   bool level_set_is_set_everywhere = false;

@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <gemmule/coupling/active_bending.h>
 #include <gemmule/coupling/coupled_state.h>
 #include <gemmule/coupling/history.h>
+#include <gemmule/coupling/interface_step.h>
 #include <gemmule/coupling/membrane_flow.h>
+#include <gemmule/coupling/mesh_policy.h>
+#include <gemmule/coupling/repair_step.h>
 #include <gemmule/coupling/step_errors.h>
+#include <gemmule/coupling/take_snapshot.h>
 #include <gemmule/coupling/trial_clouds.h>
 #include <gemmule/geometry/interface.h>
-#include <gemmule/geometry/membrane_snapshot.h>
 #include <gemmule/geometry/membrane_transport.h>
-#include <gemmule/mesh/mesh_adaptation.h>
 #include <gemmule/model/membrane_model.h>
 #include <gemmule/parameters/all_parameters.h>
 #include <gemmule/surface/membrane_bending.h>
@@ -22,18 +25,14 @@
 
 namespace Gemmule
 {
-/** What CoupledSystem::repair_membrane() has done. */
-struct RepairReport
-{
-  double radius = 0.; ///< what is thinner than its double is gone
-  double arclength_before = 0., arclength_after = 0.;
-};
-
 /**
- * Membrane, surface phases and flow on the adaptive mesh, and one time step of them (doc/method.md,
- * "One time step"): the membrane moves with the extrapolated velocity, then the concentrations follow on
- * the new membrane, then tension and Stokes flow. The accepted states are snapshots that do not depend on the
- * mesh; a step that is rejected leaves them bitwise as they were.
+ * Membrane, surface phases and flow on the adaptive mesh, and one time step of them (doc/method.md, "One time
+ * step"): the membrane moves with the extrapolated velocity, then the concentrations follow on the new
+ * membrane, then tension and Stokes flow. The accepted states are snapshots that do not depend on the mesh; a
+ * step that is rejected leaves them bitwise as they were.
+ *
+ * It owns the parts and calls them in the right order: when the mesh is adapted is up to MeshPolicy, the
+ * motion to InterfaceStep, the phases to PhaseStep, the flow to MembraneFlow, a repair to RepairStep.
  */
 template <int dim>
 class CoupledSystem
@@ -99,19 +98,21 @@ public:
   const SurfaceSolver<dim> *get_surface() const { return surface.get(); }
   /** nullptr as long as the membrane does not resist bending, also not on the grid scale. */
   const MembraneBending<dim> *get_bending() const { return bending.get(); }
+  /** Numerical rigidity that negative tension asks for in the next step (dimensionless; 0: none). */
+  double grid_scale_rigidity() const { return bending.grid_scale().value(); }
   const StokesSolver<dim> &get_flow() const { return membrane_flow.solver(); }
   const MembraneModel &get_model() const { return model; }
   /** Tension and flow, and how they are coupled. */
   const MembraneFlow<dim> &get_membrane_flow() const { return membrane_flow; }
-  double reference_arclength() const { return arclength_0; }
-  double area_correction() const { return last_area_correction; }
-  unsigned int lowered_levels() const { return adaptation.lowered_levels(); }
+  double reference_arclength() const { return reference.arclength; }
+  double area_correction() const { return interface_step.area_correction(); }
+  unsigned int lowered_levels() const { return mesh_policy.lowered_levels(); }
   /** How often the mesh has changed since the object was made. */
-  unsigned int mesh_changes() const { return n_mesh_changes; }
+  unsigned int mesh_changes() const { return mesh_policy.mesh_changes(); }
   /** What initialise() has to say of the expressions. */
   const std::vector<std::string> &initial_warnings() const { return warnings_of_initial_state; }
   /** Has the mesh changed within the time levels that the estimated errors of the last try look at? */
-  bool mesh_is_new() const { return n_steps_on_mesh < 3; }
+  bool mesh_is_new() const { return mesh_policy.mesh_is_new(); }
   dealii::TimerOutput &timer() { return timer_output; }
 
 private:
@@ -119,73 +120,36 @@ private:
   void reinit_mesh();
   /** The part of it without the interface. */
   void reinit_spaces();
-  /** Samples of the current membrane, at its predicted position if there is a motion. */
-  std::vector<MembraneSample<dim>> samples(const MembraneProjection<dim> &membrane,
-                                           const MembraneMotion<dim> *motion) const;
-  /** @return whether the mesh has changed */
-  bool adapt_mesh(const MembraneProjection<dim> &membrane, const MembraneMotion<dim> *motion);
-  /** Cut cells of the present level set, with the area of the beginning. */
-  void cut_mesh();
-  /** Throws SimulationError where the membrane may not be. */
-  void check_cut_cells() const;
-
-  void check_wall() const;
-  /** Curvature for the bending energy at the quadrature points of the cut mesh; nullptr without bending. */
-  const MembranePointValues *compute_curvature();
-  /** Throws SimulationError if some cut cell is coarser than "Membrane level". */
-  void check_refined_cells() const;
-  /** Samples the error of the last flow for the criteria that need it. */
-  void sample_flow();
+  /** Moves the interface, on a mesh that is adapted to @p motion; a multiplier changes the motion. */
+  void move_interface(MembraneMotion<dim> &motion, TrialClouds<dim> &clouds);
   /** @param old_velocity of the same material points one step ago; nullptr at the start */
   void solve_flow(double time, double dt, const CutCellVector<dim> *old_velocity);
-  /** Lets the negative tension of the current state have its grid-scale rigidity in the next step. */
-  void resist_negative_tension();
-  /** Level set and cut mesh of the current membrane after @p motion, with the area of the beginning. */
-  void move_level_set(const MembraneMotion<dim> &motion, const TrialClouds<dim> &clouds);
-  /** The first part of a step: a mesh for the current membrane and its next place, and its motion there; a
-   * multiplier of the arclength changes @p motion. */
-  void move_membrane(const MembraneProjection<dim> &membrane, MembraneMotion<dim> &motion,
-                     TrialClouds<dim> &clouds);
-  /** The second part: the phases on the membrane that has been moved. */
-  void advance_phases(const TimeStep &time_step, const TrialClouds<dim> &clouds,
-                      const MembraneProjection<dim> &membrane,
-                      const std::vector<TransportedFields<dim>> &transported,
-                      const CutCellScalar<dim> &predicted, const MembranePointValues *curvature);
-  /** Whether there is MembraneBending is a property of the state, not of its history: a resumed run has to
-   * find the same. */
-  void make_or_drop_bending();
+  /** Takes membrane, phases and flow as they are now for the current state, with no past. */
+  void begin_history(double time);
   /** repair_membrane(), which in case of a failure leaves a state that it has half changed. */
   RepairReport begin_from_repaired_membrane();
-  /** Takes membrane, phases and flow as they are now for the current state, with no past. */
-  void start_history(double time);
-  bool has_arclength_multiplier() const;
-  /** The arclength that a multiplier gives the membrane in the next step. */
-  double next_arclength() const;
-  MembraneSnapshot<dim> take_snapshot(double time,
-                                      const std::vector<TransportedFields<dim>> &transported) const;
+  /** Lets the negative tension of the current state have its grid-scale rigidity in the next step. */
+  void resist_negative_tension();
+  /** What the mesh has now. */
+  LevelOnMesh<dim> level_on_mesh() const;
 
   const AllParameters parameters;
   const MPI_Comm communicator;
   Triangulation triangulation;
-  const dealii::Point<dim> origin;
+  const dealii::Point<dim> origin; ///< lower corner of the box
   dealii::TimerOutput timer_output;
 
-  MembraneModel model;
+  const MembraneModel model;
   Interface<dim> interface;
-  std::unique_ptr<SurfaceSolver<dim>> surface;
-  std::unique_ptr<MembraneBending<dim>> bending; ///< nullptr without bending
+  std::unique_ptr<SurfaceSolver<dim>> surface; ///< nullptr with a prescribed tension
+  ActiveBending<dim> bending;
   MembraneFlow<dim> membrane_flow;
-  MeshAdaptation<dim> adaptation;
-
-  double area_0 = 0., arclength_0 = 0.;
-  double last_area_correction = 0.;
-  unsigned int steps_since_remeshing = 0;
-  unsigned int n_mesh_changes = 0;
-  std::vector<std::string> warnings_of_initial_state;
-  unsigned int n_steps_on_mesh = 0;          ///< accepted ones since the last change
-  std::vector<CellSample<dim>> flow_samples; ///< of the current state; empty if no criterion needs them
 
   History<dim> history;
+  ReferenceMeasures reference;
+  MeshPolicy<dim> mesh_policy;
+  InterfaceStep<dim> interface_step;
+
   /** What the last try has computed. */
   struct Trial
   {
@@ -194,5 +158,6 @@ private:
     TimeStepLimits limits;
   } trial;
   double last_computed_time = 0.;
+  std::vector<std::string> warnings_of_initial_state;
 };
 } // namespace Gemmule

@@ -20,7 +20,8 @@ namespace Gemmule
 {
 /**
  * The flow that a membrane drives: puts together tension, bending force and arclength constraint, and the
- * part of their stiffness that is implicit in the flow (doc/method.md, "Time"), and solves Stokes' equations.
+ * part of their stiffness that is implicit in the flow (doc/method.md, "Stability"), and solves Stokes'
+ * equations.
  */
 template <int dim>
 class MembraneFlow
@@ -39,8 +40,8 @@ public:
   struct Membrane
   {
     const CutGeometry<dim> &geometry;
-    const SurfaceSolver<dim> *surface; ///< nullptr: the tension is prescribed
-    MembraneBending<dim> *bending;     ///< nullptr: none; needs its curvature, gets its moment
+    const SurfaceSolver<dim> *surface;   ///< nullptr: the tension is prescribed
+    const MembraneBending<dim> *bending; ///< nullptr: none; has curvature and moment
     double reference_arclength;
   };
 
@@ -63,6 +64,11 @@ public:
   double constraint_tension() const { return constraint != nullptr ? constraint->tension() : 0.; }
   /** sigma with the arclength constraint's part. */
   MembranePointValues tension() const;
+  /** Does the motion need tension_velocity()? With an arclength multiplier. */
+  bool has_tension_velocity() const
+  {
+    return parameters.arclength.model == Parameters::ArclengthModel::multiplier;
+  }
   /** <u> per unit of the constraint's tension on the cut cells; after a flow with a constraint. */
   const std::vector<MembraneVelocity<dim>> &tension_velocity() const
   {

@@ -32,7 +32,6 @@ public:
   double mach_number() const { return mach; }
   const Parameters::Regularisation &regularisation() const { return choice; }
   const BendingModel &bending() const { return bending_model; }
-  BendingModel &bending() { return bending_model; }
 
   /** Part of the chemical potential that needs no derivative of f along the membrane, and its derivative. */
   struct ChemicalPotential

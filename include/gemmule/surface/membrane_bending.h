@@ -2,7 +2,7 @@
 #pragma once
 
 #include <gemmule/algebra/linear_system.h>
-#include <gemmule/model/bending_model.h>
+#include <gemmule/model/bending_law.h>
 #include <gemmule/surface/trace_space.h>
 
 #include <memory>
@@ -26,8 +26,8 @@ public:
   using Vector = dealii::LinearAlgebra::distributed::Vector<double>;
   using PointValues = MembranePointValues;
 
-  /** @p model is kept by reference. */
-  MembraneBending(const dealii::Triangulation<dim> &triangulation, const BendingModel &model);
+  /** @p law is kept by reference. */
+  MembraneBending(const dealii::Triangulation<dim> &triangulation, const BendingLaw &law);
 
   /** Call after every change of the mesh. Collective. */
   void reinit_mesh();
@@ -66,12 +66,12 @@ public:
   const TraceSpace<dim> &trace_space() const { return space; }
   /** The same, for those that outlive this. */
   std::shared_ptr<const TraceSpace<dim>> shared_trace_space() const { return shared_space; }
-  const BendingModel &get_model() const { return model; }
+  const BendingLaw &get_law() const { return law; }
 
 private:
   void assemble_mass_matrix();
 
-  const BendingModel &model;
+  const BendingLaw &law;
   const std::shared_ptr<TraceSpace<dim>> shared_space;
   TraceSpace<dim> &space;
   LinearSystem system;
