@@ -10,14 +10,10 @@ fail() {
   exit 1
 }
 
-install_packages() {
-  command -v dpkg-query >/dev/null || {
-    echo "note: not a Debian system; needed are deal.II 9.4 with MPI, p4est, Trilinos and HDF5, MUMPS, CLI11," \
-      "GoogleTest, CMake, Ninja and, for the pictures, Python with numpy, h5py, matplotlib and pandas" >&2
-    return 0
-  }
+# install_missing PACKAGE...: those of them that are missing.
+install_missing() {
   local package missing=()
-  for package in "${packages[@]}"; do
+  for package in "$@"; do
     [[ "$(dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null)" == installed ]] || missing+=("$package")
   done
   ((${#missing[@]})) || return 0
@@ -38,6 +34,15 @@ install_packages() {
     fail "apt-get could not install ${missing[*]}"
   fi
   rm -f "$output"
+}
+
+install_packages() {
+  command -v dpkg-query >/dev/null || {
+    echo "note: not a Debian system; needed are deal.II 9.4 with MPI, p4est, Trilinos and HDF5, MUMPS, CLI11," \
+      "GoogleTest, CMake, Ninja and, for the pictures, Python with numpy, h5py, matplotlib and pandas" >&2
+    return 0
+  }
+  install_missing "${packages[@]}"
 }
 
 # build TOP [TARGET...]: the release build in TOP/build/release; quiet unless it fails.

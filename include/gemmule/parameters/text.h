@@ -14,8 +14,8 @@ std::string in_quotes(const std::string &text);
 /** The number as a message shows it: with few digits, which are enough to find a place or a time. */
 std::string short_number(double number, unsigned int digits = 3);
 
-/** The text with control characters, which could garble a terminal, written as \xNN, and with characters that
- * cannot be seen written as <U+00A0>. */
+/** The text with control characters, which could garble a terminal, written as "\xNN", and with characters
+ * that cannot be seen written as <U+00A0>. */
 std::string printable(const std::string &text);
 
 /**
