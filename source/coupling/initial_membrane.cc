@@ -109,7 +109,7 @@ void InitialMembrane<dim>::gather_patches()
   patches = gather_bare_patches(interface.geometry(), communicator);
   try
   {
-    projection = std::make_unique<MembraneProjection<dim>>(patches, lower_corner<dim>(parameters.domain));
+    projection = std::make_unique<MembraneProjection<dim>>(patches, parameters.domain.lower<dim>());
   }
   catch (const SimulationError &)
   {

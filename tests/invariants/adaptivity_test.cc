@@ -264,7 +264,7 @@ TEST(ParallelAdaptivity, ErrorOfTheFlowRefinesTheBulk)
   const unsigned int n_refined = cells_at_the_top(with);
   EXPECT_GT(n_refined, 20u);
   // The run starts from the distance that the phases and the flow belong to, and not from the expression.
-  for (const auto &patch : with.state().current.patches)
+  for (const auto &patch : with.state().levels.level_n.patches)
     for (unsigned int i = 0; i < patch.level_set.size(); ++i)
     {
       const dealii::Point<2> x =

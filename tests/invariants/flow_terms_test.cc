@@ -4,6 +4,7 @@
 #include <gemmule/flow/flow_term.h>
 #include <gemmule/surface/trace_forms.h>
 
+#include <deal.II/lac/precondition.h>
 #include <deal.II/lac/solver_control.h>
 #include <deal.II/lac/solver_gmres.h>
 #include <deal.II/lac/trilinos_solver.h>
@@ -158,7 +159,7 @@ namespace
     {
       set_tension(stretching_tension);
       space.reinit_mesh();
-      space.prepare(geometry, mesh.dof_handler, mesh.level_set, {{nullptr, nullptr}});
+      space.prepare(interface, {{nullptr, nullptr}});
     }
     TraceSpace<2> space;
   };
@@ -187,8 +188,7 @@ namespace
     FlowOnCircle<2> flow(4, Point<2>(0.013, 0.007));
     const auto move_to = [&](const double x)
     {
-      flow.mesh.interpolate(Functions::SignedDistance::Sphere<2>(Point<2>(x, 0.007), flow.radius));
-      flow.geometry.reinit(flow.mesh.dof_handler, flow.mesh.level_set);
+      flow.set_membrane(Functions::SignedDistance::Sphere<2>(Point<2>(x, 0.007), flow.radius));
       flow.set_tension(stretching_tension);
     };
     // Other cells are cut each time, on one rank or on all, and in between the same as before.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <gemmule/flow/bending_force.h>
+#include <gemmule/model/bending_model.h>
 #include <gemmule/surface/membrane_bending.h>
 
 #include "support/ellipse_distance.h"

@@ -18,9 +18,9 @@ using Testing::LevelSetMesh;
 
 namespace
 {
-const Functions::SignedDistance::Sphere<2> circle(Point<2>(0.013, -0.027), 0.45);
+const Functions::SignedDistance::Sphere<2> resting_circle(Point<2>(0.013, -0.027), 0.45);
 
-/** A circle with a given velocity on a mesh of level 4 that its membrane wants to have level 5. */
+/** A resting_circle with a given velocity on a mesh of level 4 that its membrane wants to have level 5. */
 struct CircleOnAdaptedMesh
 {
   LevelSetMesh<2> mesh{4};
@@ -36,7 +36,7 @@ struct CircleOnAdaptedMesh
     parameters.membrane_level = parameters.phase_boundary_level = 5;
     parameters.remeshing_interval = remeshing_interval;
     membrane.tension_model = Parameters::TensionModel::prescribed;
-    patches = gather_bare_patches(cut(circle), MPI_COMM_WORLD);
+    patches = gather_bare_patches(cut(resting_circle), MPI_COMM_WORLD);
   }
 
   CutGeometry<2> cut(const Function<2> &distance)
@@ -49,7 +49,7 @@ struct CircleOnAdaptedMesh
 
   MeshPolicy<2> policy() { return MeshPolicy<2>(mesh.triangulation, parameters, domain, membrane, timer); }
 
-  /** Asks for a mesh for the circle, which a step takes to the right by @p distance. */
+  /** Asks for a mesh for the resting_circle, which a step takes to the right by @p distance. */
   bool adapt(MeshPolicy<2> &policy, const double distance)
   {
     for (auto &patch : patches)
@@ -64,9 +64,9 @@ TEST(ParallelMeshPolicy, AdaptsWhereTheMembraneIsAndWhereItGoes)
 {
   CircleOnAdaptedMesh run(1000);
   MeshPolicy<2> policy = run.policy();
-  EXPECT_THROW(policy.check_refined(run.cut(circle)), StepBreakdown) << "no cell is fine enough yet";
+  EXPECT_THROW(policy.check_refined(run.cut(resting_circle)), StepBreakdown) << "no cell is fine enough yet";
   EXPECT_TRUE(run.adapt(policy, 0.));
-  EXPECT_NO_THROW(policy.check_refined(run.cut(circle)));
+  EXPECT_NO_THROW(policy.check_refined(run.cut(resting_circle)));
   EXPECT_DOUBLE_EQ(policy.membrane_cell_size(), 1. / 16.);
   EXPECT_FALSE(run.adapt(policy, 0.)) << "nothing has changed since";
 
@@ -74,7 +74,7 @@ TEST(ParallelMeshPolicy, AdaptsWhereTheMembraneIsAndWhereItGoes)
   EXPECT_THROW(policy.check_refined(run.cut(moved)), StepBreakdown);
   EXPECT_TRUE(run.adapt(policy, 0.3));
   EXPECT_NO_THROW(policy.check_refined(run.cut(moved)));
-  EXPECT_NO_THROW(policy.check_refined(run.cut(circle))) << "the step may be rejected";
+  EXPECT_NO_THROW(policy.check_refined(run.cut(resting_circle))) << "the step may be rejected";
   EXPECT_EQ(policy.mesh_changes(), 2u);
 }
 
