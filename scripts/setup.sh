@@ -56,7 +56,8 @@ build() {
   jobs=$((jobs > $(nproc) ? $(nproc) : jobs))
   jobs=$((jobs < 1 ? 1 : jobs))
   echo "Building in $directory (takes minutes the first time)"
-  if ! { cmake -S "$top" -B "$directory" -G Ninja -DCMAKE_BUILD_TYPE=Release &&
+  local options=(-DCMAKE_BUILD_TYPE=Release -DGEMMULE_NATIVE_ARCHITECTURE=ON)
+  if ! { cmake -S "$top" -B "$directory" -G Ninja "${options[@]}" &&
     ninja -C "$directory" -j "$jobs" "$@"; } >"$log" 2>&1; then
     grep -nE -A5 'error|Error|FAILED' "$log" | head -n 60 >&2 || true
     fail "the build failed; everything it said is in $log"

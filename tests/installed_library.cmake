@@ -1,11 +1,28 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Installs the build, then builds doc/examples/smooth_step against the installed library as a project of its own, and runs
-# it. Needs -D: build_directory, source_directory, work_directory, build_type.
+# it. Needs -D: build_directory, source_directory, work_directory, build_type, deal_ii_options.
 file(REMOVE_RECURSE ${work_directory})
 file(MAKE_DIRECTORY ${work_directory})
 set(example ${work_directory}/build)
 execute_process(COMMAND ${CMAKE_COMMAND} --install ${build_directory} --prefix ${work_directory}/prefix
   OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
+
+# How Gemmule is compiled is not handed on; what deal.II hands on is its own affair.
+file(GLOB_RECURSE targets_file ${work_directory}/prefix/*GemmuleTargets.cmake)
+file(READ ${targets_file} targets)
+foreach(option -march=native -O3 -g0)
+  if("${targets}" MATCHES "${option}" AND NOT "${deal_ii_options}" MATCHES "${option}")
+    message(FATAL_ERROR "the package hands on the option ${option}")
+  endif()
+endforeach()
+# Debug sections would make it thirty times as large.
+if(build_type STREQUAL "Release")
+  file(SIZE ${work_directory}/prefix/bin/gemmule size)
+  if(size GREATER 20000000)
+    message(FATAL_ERROR "the program has ${size} bytes")
+  endif()
+endif()
+
 execute_process(COMMAND ${CMAKE_COMMAND} -S ${source_directory}/doc/examples/smooth_step -B ${example}
   -DCMAKE_BUILD_TYPE=${build_type} -DCMAKE_PREFIX_PATH=${work_directory}/prefix COMMAND_ERROR_IS_FATAL ANY)
 execute_process(COMMAND ${CMAKE_COMMAND} --build ${example} COMMAND_ERROR_IS_FATAL ANY)
