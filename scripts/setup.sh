@@ -43,6 +43,11 @@ install_packages() {
     return 0
   }
   install_missing "${packages[@]}"
+  # deal.II hands on the linker that it was built with, which its package does not depend on: mold on Debian 13.
+  local linker
+  linker=$(sed -nE 's/^set\(DEAL_II_LINKER_FLAGS ".*-fuse-ld=([a-z]+).*/\1/Ip' \
+    /usr/share/cmake/deal.II/deal.IIConfig.cmake 2>/dev/null || true)
+  [[ -z "$linker" ]] || command -v "ld.$linker" >/dev/null || install_missing "${linker/#gold/binutils-gold}"
 }
 
 # build TOP [TARGET...]: the release build in TOP/build/release; quiet unless it fails.
