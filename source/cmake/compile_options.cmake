@@ -7,7 +7,9 @@ function(gemmule_compile_options target)
     $<$<BOOL:${GEMMULE_WARNINGS_AS_ERRORS}>:-Werror>
     # -g0: Debian's deal.II hands on the -g that it was built with, and the program would be thirty times as large.
     $<$<CONFIG:Release>:-O3 -g0>
-    $<$<BOOL:${GEMMULE_NATIVE_ARCHITECTURE}>:-march=native>)
+    $<$<BOOL:${GEMMULE_NATIVE_ARCHITECTURE}>:-march=native>
+    # The files of a unity build are included, and what is unnamed in a header may well deserve a warning.
+    $<$<BOOL:${CMAKE_UNITY_BUILD}>:-Wno-subobject-linkage>)
 endfunction()
 
 # gemmule_unity_groups(TARGET SOURCE...): with CMAKE_UNITY_BUILD, up to six files of one folder are compiled as one. Most of
