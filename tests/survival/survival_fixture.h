@@ -222,10 +222,10 @@ protected:
 };
 
 /**
- * Runs of the small case, and the results of one that nothing interrupts, shared by all tests. They are in the
- * directory that the environment variable GEMMULE_SURVIVAL_REFERENCE names, where UninterruptedRun.IsComputed
- * puts them: ctest runs that test first, and each test in a process of its own. Without the variable they are
- * computed by the process.
+ * Runs of the small case, and the results of one that nothing interrupts, shared by all tests. They are in
+ * the directory that the environment variable GEMMULE_SURVIVAL_REFERENCE names, where
+ * UninterruptedRun.IsComputed puts them: ctest runs that test first, and each test in a process of its own.
+ * Without the variable they are computed by the process.
  */
 class Survival : public RunsOfACase
 {

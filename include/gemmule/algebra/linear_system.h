@@ -54,7 +54,8 @@ public:
 
   /** Zero, with room for the unknowns of this rank's elements. */
   Vector make_vector() const { return Vector(partitioner); }
-  /** Makes @p vector such a one. (An assignment would keep its ghosts where the owned ranges are the same.) */
+  /** Makes @p vector such a one. (An assignment would keep its ghosts where the owned ranges are the same.)
+   */
   void reinit(Vector &vector) const { vector.reinit(partitioner); }
 
   void zero_matrix() { sum.set_zero(); }
