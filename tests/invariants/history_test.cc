@@ -41,14 +41,14 @@ void expect_same(const AcceptedLevels<2> &a, const AcceptedLevels<2> &b)
   EXPECT_EQ(a.limits.displacement, b.limits.displacement);
 }
 
-/** A sheared membrane with phase boundaries that are finer than the rest, on a mesh that every try may
- * change. */
+/** A membrane that is stretched, so that its phase boundaries, which have finer cells, move along it: a long
+ * try refines cells of the present membrane. */
 AllParameters case_with_changing_mesh()
 {
   AllParameters parameters = small_case();
-  set_two_phases(parameters, "x-0.1");
+  set_two_phases(parameters, "x-0.3");
   parameters.membrane.initial_total_concentration = "1+0.1*y";
-  parameters.domain.boundary_velocity = "2*y; 0";
+  parameters.domain.boundary_velocity = "2*x; -2*y";
   parameters.mesh.membrane_level = 4;
   parameters.mesh.phase_boundary_level = 5;
   parameters.mesh.membrane_layers = 1;
@@ -66,13 +66,18 @@ TEST(ParallelCoupledHistory, IsBitwiseTheSameAfterTriesThatChangeTheMesh)
 {
   CoupledSystem<2> system(case_with_changing_mesh(), MPI_COMM_WORLD);
   system.initialise();
-  run_steps(system, 3, 0.005);
+  run_steps(system, 3, 0.002);
   const AcceptedLevels<2> before = system.state().levels;
   const unsigned int mesh_changes = system.mesh_changes(), cells = system.mesh().n_global_active_cells();
 
-  system.try_step(0.05);
+  system.try_step(0.06);
   ASSERT_GT(system.mesh_changes(), mesh_changes) << "the mesh has to change for this test to mean anything";
   ASSERT_NE(system.mesh().n_global_active_cells(), cells);
+  History<2> history;
+  history.restore(before);
+  const TrialClouds<2> clouds(history, system.mesh());
+  ASSERT_GT(clouds.level_n().points.size(), before.level_n.cloud.points.size())
+      << "the try has to take other points than those of the history";
   expect_same(system.state().levels, before);
   system.try_step(0.01);
   expect_same(system.state().levels, before);
@@ -93,9 +98,9 @@ TEST(CoupledHistory, GoesOnBitwiseTheSameFromASavedStateAfterATryThatChangedTheM
   const AllParameters parameters = case_with_changing_mesh();
   CoupledSystem<2> system(parameters, MPI_COMM_WORLD);
   system.initialise();
-  run_steps(system, 3, 0.005);
+  run_steps(system, 3, 0.002);
   const unsigned int mesh_changes = system.mesh_changes();
-  system.try_step(0.05);
+  system.try_step(0.06);
   ASSERT_GT(system.mesh_changes(), mesh_changes);
 
   CoupledSystem<2> resumed(parameters, MPI_COMM_WORLD);
