@@ -79,8 +79,7 @@ inline std::string command_of(const Directory &directory, const std::string &arg
   return "cd '" + directory.path.string() + "' && " + before +
          "env -i PATH=\"$PATH\" HOME=\"$HOME\" OMPI_ALLOW_RUN_AS_ROOT=1 "
          "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMP_NUM_THREADS=1 DEAL_II_NUM_THREADS=1 "
-         "${OMPI_MCA_pml:+OMPI_MCA_pml=$OMPI_MCA_pml} "
-         "${OMPI_MCA_ess_singleton_isolated:+OMPI_MCA_ess_singleton_isolated=1} "
+         "${OMPI_MCA_pml:+OMPI_MCA_pml=$OMPI_MCA_pml} ${OMPI_MCA_btl:+OMPI_MCA_btl=$OMPI_MCA_btl} "
          "ASAN_OPTIONS=\"$ASAN_OPTIONS\" LSAN_OPTIONS=\"$LSAN_OPTIONS\" UBSAN_OPTIONS=\"$UBSAN_OPTIONS\" " +
          prefix + launcher + GEMMULE_EXECUTABLE + " " + arguments + " > .stdout 2> .stderr";
 }
