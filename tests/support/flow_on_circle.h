@@ -59,10 +59,9 @@ struct FlowOnCircle
     }
   }
 
-  /** The flow that the tension and @p more terms drive. */
-  void solve(const Function<dim> &boundary_velocity, const typename StokesSolver<dim>::Terms &more = {})
+  /** The flow that the tension and other @p terms drive. */
+  void solve(const Function<dim> &boundary_velocity, typename StokesSolver<dim>::Terms terms = {})
   {
-    typename StokesSolver<dim>::Terms terms = more;
     terms.push_back(std::make_shared<TensionForce<dim>>(tension, fluid.capillary_number));
     solver.prepare(geometry, boundary_velocity, terms);
     solver.solve();
