@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Installs the build, then builds doc/examples/smooth_step against the installed library as a project of its own, and runs
-# it. Needs -D: build_directory, source_directory, work_directory, build_type, deal_ii_options.
+# it. Needs -D: build_directory, source_directory, work_directory, generator, build_type, deal_ii_options.
 file(REMOVE_RECURSE ${work_directory})
 file(MAKE_DIRECTORY ${work_directory})
 set(example ${work_directory}/build)
@@ -23,7 +23,7 @@ if(build_type STREQUAL "Release")
   endif()
 endif()
 
-execute_process(COMMAND ${CMAKE_COMMAND} -S ${source_directory}/doc/examples/smooth_step -B ${example}
+execute_process(COMMAND ${CMAKE_COMMAND} -G "${generator}" -S ${source_directory}/doc/examples/smooth_step -B ${example}
   -DCMAKE_BUILD_TYPE=${build_type} -DCMAKE_PREFIX_PATH=${work_directory}/prefix COMMAND_ERROR_IS_FATAL ANY)
 execute_process(COMMAND ${CMAKE_COMMAND} --build ${example} COMMAND_ERROR_IS_FATAL ANY)
 
