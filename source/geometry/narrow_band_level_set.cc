@@ -3,6 +3,7 @@
 
 #include <deal.II/base/numbers.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace Gemmule
@@ -29,12 +30,42 @@ std::optional<double> NarrowBandLevelSet<dim>::value(const Point<dim> &x) const
 }
 
 template <int dim>
+std::optional<double> NarrowBandLevelSet<dim>::value_at_edge(const Point<dim> &x) const
+{
+  std::optional<double> phi;
+  // Farther away, a cell that is nearer might not be visited.
+  double nearest = map.smallest_size();
+  map.visit_nearby(x,
+                   [&](const unsigned int c)
+                   {
+                     Point<dim> unit, edge;
+                     for (unsigned int d = 0; d < dim; ++d)
+                     {
+                       unit[d] = (x[d] - cells[c].corner[d]) / cells[c].size;
+                       edge[d] = std::clamp(unit[d], 0., 1.);
+                     }
+                     const double distance = cells[c].size * unit.distance(edge);
+                     if (distance >= nearest)
+                       return;
+                     nearest = distance;
+                     phi = evaluate_polynomial<dim, 3>(cells[c].level_set, edge).value;
+                   });
+  // The band has the whole membrane, so that none of it is between x and the nearest point of the band; that
+  // point itself has to be on one side beyond doubt.
+  if (phi && std::abs(*phi) > nearest)
+    return phi;
+  return {};
+}
+
+template <int dim>
 double NarrowBandLevelSet<dim>::with_side(const double distance, const Point<dim> &x) const
 {
   if (const auto phi = value(x))
     return std::copysign(distance, *phi);
   if (cloud == nullptr)
     return distance;
+  if (const auto phi = value_at_edge(x))
+    return std::copysign(distance, *phi);
   double winding = 0.;
   for (std::size_t i = 0; i < cloud->points.size(); ++i)
   {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <limits>
 #include <unordered_map>
 #include <unordered_set>
 #include <utility>
@@ -37,6 +38,29 @@ public:
    * of the collection: each point has one cell at most, also where parts of a mesh are different collections.
    */
   int find_half_open(const dealii::Point<dim> &x) const;
+
+  /** Carries out @p action on the ids of all cells that are not farther from @p x than smallest_size(), and
+   * of some more. */
+  template <typename Action>
+  void visit_nearby(const dealii::Point<dim> &x, const Action &action) const
+  {
+    for (const auto &cells : sizes)
+      for_each_neighbour<dim>(cells.lattice.position_of(x), 1,
+                              [&](const LatticeKey<dim> &key)
+                              {
+                                if (const auto found = cells.ids.find(key); found != cells.ids.end())
+                                  action(found->second);
+                              });
+  }
+
+  /** Edge of the smallest cells; infinite without any. */
+  double smallest_size() const
+  {
+    double smallest = std::numeric_limits<double>::infinity();
+    for (const auto &cells : sizes)
+      smallest = std::min(smallest, cells.lattice.size);
+    return smallest;
+  }
 
 private:
   /** The cells of one size. */

@@ -26,17 +26,22 @@ public:
   std::optional<double> value(const dealii::Point<dim> &x) const;
 
   /**
-   * A distance of x from the membrane with the sign of x's side: that of phi within the band, beyond it that
-   * of 1/2 - w with the winding number (solid angle in 3D)
+   * A distance of x from the membrane with the sign of x's side: that of phi within the band and on its edge,
+   * for points that are not farther from it than one of its cells; beyond that of 1/2 - w with the winding
+   * number (solid angle in 3D)
    *
    *     w(x) = int (y - x) . n / |y - x|^dim ds(y) / |unit sphere|,
    *
-   * 1 inside and 0 outside. Unlike the normal of the closest point, it does not care about corners, or folds
-   * within a cell. Without a cloud the sign that @p distance has stays.
+   * 1 inside and 0 outside, a sum over the whole membrane. Unlike the normal of the closest point, it does
+   * not care about corners, or folds within a cell. Without a cloud the sign that @p distance has stays.
    */
   double with_side(double distance, const dealii::Point<dim> &x) const;
 
 private:
+  /** phi at the point of the band that is nearest to @p x, which is beside the band; nothing if it tells
+   * nothing of the side of x. */
+  std::optional<double> value_at_edge(const dealii::Point<dim> &x) const;
+
   const std::vector<LevelSetCell<dim>> &cells;
   const MembraneCloud<dim> *const cloud;
   CartesianCellMap<dim> map;
