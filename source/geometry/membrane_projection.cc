@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace Gemmule
 {
@@ -16,6 +17,12 @@ namespace
   // The normal of the nearest sample tells the side if its angle with the direction to a point is below 25
   // degrees.
   constexpr double well_aligned = 0.9;
+
+  // So many rings of bins around a point are searched for the nearest sample; farther away it is the nearest
+  // one of each patch that counts.
+  constexpr int n_rings = 3;
+  // In bins: where the rings have no sample of a patch with this one. A bin is as large as the largest patch.
+  constexpr double square_of_far = (n_rings + 2.2) * (n_rings + 2.2) * 3.;
 
   /** The level set of a patch in units of the cell size. */
   template <int dim>
@@ -122,37 +129,41 @@ MembraneProjection<dim>::MembraneProjection(const std::vector<MembranePatch<dim>
   bins = PointBins<dim>(origin, largest_size);
   for (unsigned int i = 0; i < all_samples.size(); ++i)
     bins.insert(all_samples[i].point, i);
+  std::vector<typename BoxTree<dim>::Box> primary_points;
+  for (const unsigned int i : primary_samples)
+    primary_points.push_back({all_samples[i].point, all_samples[i].point});
+  primary_tree = BoxTree<dim>(std::move(primary_points));
 }
 
 template <int dim>
 unsigned int MembraneProjection<dim>::nearest_sample(const Point<dim> &x) const
 {
-  double best = std::numeric_limits<double>::max();
-  unsigned int nearest = 0;
+  // One sample of each patch tells how far the others may lie.
+  const unsigned int primary = primary_samples[primary_tree.nearest(x)];
+  const double primary_square = x.distance_square(all_samples[primary].point), bin_size = bins.bin_size();
+  if (primary_square > square_of_far * bin_size * bin_size)
+    return primary;
+
+  double best = std::numeric_limits<double>::max(), reach_square = primary_square;
+  unsigned int nearest = primary;
   const auto visit = [&](const unsigned int i)
   {
     const double distance = x.distance_square(all_samples[i].point);
     if (distance < best)
     {
       best = distance;
+      reach_square = std::min(reach_square, distance);
       nearest = i;
     }
   };
-  // rings of bins around the point; what lies beyond ring r is at least r bins away
-  const LatticeKey<dim> center = bins.bin_of(x);
-  const double bin_size = bins.bin_size();
-  const int n_rings = 3;
+  // Rings of bins around the point: what lies beyond ring r is at least r bins away.
   for (int ring = 0; ring <= n_rings; ++ring)
   {
-    if (ring > 0 && best <= (ring - 1.) * (ring - 1.) * bin_size * bin_size)
-      return nearest;
-    bins.visit_ring(center, ring, visit);
+    if (ring > 1 && reach_square <= (ring - 1.) * (ring - 1.) * bin_size * bin_size)
+      break;
+    bins.visit_ring(x, ring, reach_square, visit);
   }
-  if (best <= n_rings * n_rings * bin_size * bin_size)
-    return nearest;
-  for (const unsigned int i : primary_samples)
-    visit(i);
-  return nearest;
+  return best <= primary_square ? nearest : primary;
 }
 
 template <int dim>

@@ -5,10 +5,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace Gemmule
 {
 using namespace dealii;
+
+namespace
+{
+  // In edges of a cell: at a point that is so far from the membrane the level set has the right sign.
+  constexpr double beyond_doubt = 0.5;
+} // namespace
 
 template <int dim>
 NarrowBandLevelSet<dim>::NarrowBandLevelSet(const std::vector<LevelSetCell<dim>> &cells_,
@@ -32,27 +39,29 @@ std::optional<double> NarrowBandLevelSet<dim>::value(const Point<dim> &x) const
 template <int dim>
 std::optional<double> NarrowBandLevelSet<dim>::value_at_edge(const Point<dim> &x) const
 {
-  std::optional<double> phi;
-  // Farther away, a cell that is nearer might not be visited.
-  double nearest = map.smallest_size();
-  map.visit_nearby(x,
-                   [&](const unsigned int c)
-                   {
-                     Point<dim> unit, edge;
-                     for (unsigned int d = 0; d < dim; ++d)
-                     {
-                       unit[d] = (x[d] - cells[c].corner[d]) / cells[c].size;
-                       edge[d] = std::clamp(unit[d], 0., 1.);
-                     }
-                     const double distance = cells[c].size * unit.distance(edge);
-                     if (distance >= nearest)
-                       return;
-                     nearest = distance;
-                     phi = evaluate_polynomial<dim, 3>(cells[c].level_set, edge).value;
-                   });
+  if (cells.empty())
+    return {};
+  if (!tree)
+  {
+    std::vector<typename BoxTree<dim>::Box> boxes;
+    for (const auto &cell : cells)
+    {
+      Point<dim> upper = cell.corner;
+      for (unsigned int d = 0; d < dim; ++d)
+        upper[d] += cell.size;
+      boxes.push_back({cell.corner, upper});
+    }
+    tree.emplace(std::move(boxes));
+  }
+  const auto &cell = cells[tree->nearest(x)];
+  Point<dim> edge;
+  for (unsigned int d = 0; d < dim; ++d)
+    edge[d] = std::clamp((x[d] - cell.corner[d]) / cell.size, 0., 1.);
+  const double phi = evaluate_polynomial<dim, 3>(cell.level_set, edge).value,
+               distance = x.distance(cell.corner + cell.size * Tensor<1, dim>(edge));
   // The band has the whole membrane, so that none of it is between x and the nearest point of the band; that
   // point itself has to be on one side beyond doubt.
-  if (phi && std::abs(*phi) > nearest)
+  if (std::abs(phi) > std::min(distance, beyond_doubt * cell.size))
     return phi;
   return {};
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <gtest/gtest.h>
+#include <limits>
 #include <random>
 #include <set>
 
@@ -228,7 +229,7 @@ void expect_points_nearby_are_visited()
       x[d] = uniform(generator);
     return x;
   };
-  const double bin_size = 0.3;
+  const double bin_size = 0.3, everything = std::numeric_limits<double>::infinity();
   PointBins<dim> bins(box_corner<dim>(), bin_size);
   std::vector<Point<dim>> points;
   for (unsigned int i = 0; i < 1000; ++i)
@@ -244,7 +245,7 @@ void expect_points_nearby_are_visited()
     for (int ring = 0; ring <= 3; ++ring)
     {
       const auto before = rings.size();
-      bins.visit_ring(bins.bin_of(x), ring, [&](const unsigned int j) { rings.insert(j); });
+      bins.visit_ring(x, ring, everything, [&](const unsigned int j) { rings.insert(j); });
       for (unsigned int j = 0; j < points.size(); ++j)
         EXPECT_TRUE(x.distance(points[j]) >= ring * bin_size || rings.count(j) == 1) << ring;
       EXPECT_TRUE(ring != 1 || rings == nearby);
@@ -255,6 +256,17 @@ void expect_points_nearby_are_visited()
     {
       EXPECT_EQ(rings.count(j), 1u);
       EXPECT_LT(x.distance(points[j]), 4. * std::sqrt(dim) * bin_size);
+    }
+    // All within a shorter reach, and none of bins beyond it.
+    for (const double reach : {0., 0.1, 0.35, 0.8})
+    {
+      std::multiset<unsigned int> within;
+      for (int ring = 0; ring <= 3; ++ring)
+        bins.visit_ring(x, ring, reach * reach, [&](const unsigned int j) { within.insert(j); });
+      for (unsigned int j = 0; j < points.size(); ++j)
+        EXPECT_TRUE(x.distance(points[j]) > reach || within.count(j) == 1) << reach;
+      for (const unsigned int j : within)
+        EXPECT_LT(x.distance(points[j]), reach + std::sqrt(dim) * 1.01 * bin_size);
     }
   }
 }
@@ -275,7 +287,7 @@ TEST(PointBins, KeepTheOrderWithinABinAndKnowTheFullestOne)
   bins.insert(Point<2>(1.1, 0.9), "c");
   EXPECT_EQ(bins.largest_bin(), 2u);
   std::string visited;
-  bins.visit_ring(bins.bin_of(Point<2>(0.5, 0.5)), 0, [&](const std::string &s) { visited += s; });
+  bins.visit_ring(Point<2>(0.5, 0.5), 0, 0., [&](const std::string &s) { visited += s; });
   EXPECT_EQ(visited, "ab");
   bins.visit_nearby(Point<2>(2.5, 0.5), [&](const std::string &s) { visited += s; });
   EXPECT_EQ(visited, "abc");

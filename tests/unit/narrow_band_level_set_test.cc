@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Which side of a membrane a point is on: by the level set within the band and beside it, by the winding
-// number farther away.
+// Which side of a membrane a point is on: by the level set within the band and at its edge, by the winding
+// number where that is too near to the membrane.
 #include <gemmule/geometry/membrane_transport.h>
 #include <gemmule/geometry/narrow_band_level_set.h>
 
@@ -137,16 +137,17 @@ TEST(NarrowBandLevelSet, TheBandIncludesItsUpperFaces)
     EXPECT_FALSE(band.value(x)) << x;
 }
 
-// A node of the band comes from there when the membrane moves.
-TEST(NarrowBandLevelSet, BesideTheBandItsEdgeTellsTheSide)
+// A node of the band comes from beside it when the membrane moves, those of a new mesh from everywhere.
+TEST(NarrowBandLevelSet, OutsideOfTheBandItsEdgeTellsTheSide)
 {
   const WrongCloud wrong;
   for (const auto &x : {Point<2>(1., 1.01), Point<2>(1., 1.49), Point<2>(1.5, -0.4), Point<2>(2.6, 0.6),
-                        Point<2>(2.9, 0.25), Point<2>(2.2, 0.7), Point<2>(-0.2, 0.5), Point<2>(-0.1, -0.1)})
+                        Point<2>(2.9, 0.25), Point<2>(2.2, 0.7), Point<2>(-0.2, 0.5), Point<2>(-0.1, -0.1),
+                        Point<2>(1., 1.51), Point<2>(3.1, 0.25), Point<2>(1000., -300.), Point<2>(1., -50.)})
     EXPECT_EQ(wrong.side_is_from(x), "level set") << x;
-  // Farther away than the smallest cell, or where the edge is as near to the membrane as the point to it.
-  for (const auto &x : {Point<2>(1., 1.51), Point<2>(3.1, 0.25), Point<2>(-0.6, 0.5), Point<2>(0.2, 1.1),
-                        Point<2>(0.3, 1.2), Point<2>(0.3, -0.1)})
+  // Where the edge is as near to the membrane as the point to it, and nearer than half a cell.
+  for (const auto &x : {Point<2>(-0.6, 0.5), Point<2>(-70., 0.5), Point<2>(0.2, 1.1), Point<2>(0.3, 1.2),
+                        Point<2>(0.3, -0.1), Point<2>(0.7, 1.5)})
     EXPECT_EQ(wrong.side_is_from(x), "cloud") << x;
 }
 

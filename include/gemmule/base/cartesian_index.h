@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <limits>
 #include <unordered_map>
 #include <unordered_set>
 #include <utility>
@@ -38,29 +37,6 @@ public:
    * of the collection: each point has one cell at most, also where parts of a mesh are different collections.
    */
   int find_half_open(const dealii::Point<dim> &x) const;
-
-  /** Carries out @p action on the ids of all cells that are not farther from @p x than smallest_size(), and
-   * of some more. */
-  template <typename Action>
-  void visit_nearby(const dealii::Point<dim> &x, const Action &action) const
-  {
-    for (const auto &cells : sizes)
-      for_each_neighbour<dim>(cells.lattice.position_of(x), 1,
-                              [&](const LatticeKey<dim> &key)
-                              {
-                                if (const auto found = cells.ids.find(key); found != cells.ids.end())
-                                  action(found->second);
-                              });
-  }
-
-  /** Edge of the smallest cells; infinite without any. */
-  double smallest_size() const
-  {
-    double smallest = std::numeric_limits<double>::infinity();
-    for (const auto &cells : sizes)
-      smallest = std::min(smallest, cells.lattice.size);
-    return smallest;
-  }
 
 private:
   /** The cells of one size. */
@@ -98,18 +74,24 @@ public:
     for_each_neighbour<dim>(bin_of(x), 1, [&](const LatticeKey<dim> &key) { visit_bin(key, action); });
   }
 
-  /** The same for the bins that are exactly @p ring bins away from @p center: rings 0 to n of its bin have
-   * all within a distance of n bin_size() of a point. */
+  /**
+   * The same for the bins that are exactly @p ring bins away from that of @p x: rings 0 to n have all within
+   * a distance of n bin_size().
+   * @param reach_square bins whose distance from @p x has a larger square are left out; @p action may make it
+   * smaller
+   */
   template <typename Action>
-  void visit_ring(const LatticeKey<dim> &center, const int ring, const Action &action) const
+  void visit_ring(const dealii::Point<dim> &x, const int ring, const double &reach_square,
+                  const Action &action) const
   {
+    const LatticeKey<dim> center = bin_of(x);
     for_each_neighbour<dim>(center, ring,
                             [&](const LatticeKey<dim> &key)
                             {
                               int distance = 0;
                               for (unsigned int d = 0; d < dim; ++d)
                                 distance = std::max(distance, std::abs(key[d] - center[d]));
-                              if (distance == ring)
+                              if (distance == ring && distance_square(x, key) <= reach_square)
                                 visit_bin(key, action);
                             });
   }
@@ -124,6 +106,21 @@ public:
   }
 
 private:
+  /** A lower bound of the square of the distance from a bin. */
+  double distance_square(const dealii::Point<dim> &x, const LatticeKey<dim> &key) const
+  {
+    // A point may lie beside its bin by round-off.
+    const double half_width = (0.5 + 1e-8) * lattice.size;
+    double sum = 0.;
+    for (unsigned int d = 0; d < dim; ++d)
+    {
+      const double center = lattice.origin[d] + (key[d] + 0.5) * lattice.size;
+      const double outside = std::max(std::abs(x[d] - center) - half_width, 0.);
+      sum += outside * outside;
+    }
+    return sum;
+  }
+
   template <typename Action>
   void visit_bin(const LatticeKey<dim> &key, const Action &action) const
   {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <gemmule/base/box_tree.h>
 #include <gemmule/base/cartesian_index.h>
 #include <gemmule/geometry/membrane_snapshot.h>
 
@@ -80,5 +81,6 @@ private:
   CartesianCellMap<dim> patch_map;
   PointBins<dim> bins; ///< of the size of the largest patch, with the indices of samples
   std::vector<unsigned int> primary_samples; ///< one per patch, for far points
+  BoxTree<dim> primary_tree;                 ///< of primary_samples
 };
 } // namespace Gemmule

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <gemmule/base/box_tree.h>
 #include <gemmule/base/cartesian_index.h>
 #include <gemmule/geometry/membrane_snapshot.h>
 
@@ -26,9 +27,9 @@ public:
   std::optional<double> value(const dealii::Point<dim> &x) const;
 
   /**
-   * A distance of x from the membrane with the sign of x's side: that of phi within the band and on its edge,
-   * for points that are not farther from it than one of its cells; beyond that of 1/2 - w with the winding
-   * number (solid angle in 3D)
+   * A distance of x from the membrane with the sign of x's side: that of phi within the band, or at the
+   * nearest point of the band, since the band has the whole membrane. Where phi is too small there to tell a
+   * side, it is that of 1/2 - w with the winding number (solid angle in 3D)
    *
    *     w(x) = int (y - x) . n / |y - x|^dim ds(y) / |unit sphere|,
    *
@@ -45,5 +46,6 @@ private:
   const std::vector<LevelSetCell<dim>> &cells;
   const MembraneCloud<dim> *const cloud;
   CartesianCellMap<dim> map;
+  mutable std::optional<BoxTree<dim>> tree; ///< of the cells; made when it is needed first
 };
 } // namespace Gemmule
