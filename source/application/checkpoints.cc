@@ -14,7 +14,7 @@ namespace Gemmule
 namespace
 {
   /** Of the whole checkpoint; raised when an older program could not read it, or not continue from it. */
-  const std::string schema_version = "5";
+  const std::string schema_version = "6";
 
   /** The last row of the statistics is in the state: a program with other columns cannot continue from it. */
   std::string n_statistics_columns()

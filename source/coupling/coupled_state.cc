@@ -102,6 +102,7 @@ void exchange(ArrayExchange &archive, CoupledState<dim> &state)
   archive.integers("mesh", state.mesh);
   archive("steps_since_remeshing", state.mesh_policy.steps_since_remeshing);
   archive("lowered_levels", state.lowered_levels);
+  archive.integers("membrane_cells", state.membrane_cells);
   archive("n_steps_on_mesh", state.mesh_policy.n_steps_on_mesh);
   static_assert(sizeof(state.mesh_policy) == 2 * sizeof(unsigned int) + sizeof(std::vector<double>),
                 "MeshPolicyMemory has a new member: give it a line here, then count it");

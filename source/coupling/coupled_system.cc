@@ -233,6 +233,7 @@ CoupledState<dim> CoupledSystem<dim>::state() const
   state.mesh = gather_mesh_cells(triangulation);
   state.mesh_policy = mesh_policy.get_memory();
   state.lowered_levels = mesh_policy.lowered_levels();
+  state.membrane_cells = mesh_policy.adaptation().load_balance().membrane_cells();
   state.level_set = interface.level_set().gather_cells();
   state.level_set_is_set_everywhere = interface.level_set().is_set_everywhere();
   return state;
@@ -242,6 +243,7 @@ template <int dim>
 void CoupledSystem<dim>::restore(const CoupledState<dim> &state)
 {
   refine_to_cells(triangulation, state.mesh);
+  mesh_policy.adaptation().load_balance().divide_by(state.membrane_cells);
   reinit_mesh();
   interface.restore(state.level_set, state.level_set_is_set_everywhere);
   mesh_policy.restore(state.mesh_policy, state.lowered_levels);

@@ -91,6 +91,7 @@ void InitialMembrane<dim>::refine_towards_membrane()
     triangulation.execute_coarsening_and_refinement();
     checks.number_of_cells(triangulation.n_global_active_cells(), level + 1);
   }
+  adaptation.load_balance().divide();
 }
 
 template <int dim>
@@ -145,6 +146,7 @@ bool InitialMembrane<dim>::refine_lost_parts()
   if (Utilities::MPI::sum(n_refined, communicator) == 0)
     return false;
   triangulation.execute_coarsening_and_refinement();
+  adaptation.load_balance().divide();
   return true;
 }
 

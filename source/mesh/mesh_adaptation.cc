@@ -4,6 +4,8 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
+
 namespace Gemmule
 {
 using namespace dealii;
@@ -14,7 +16,7 @@ MeshAdaptation<dim>::MeshAdaptation(Triangulation &triangulation, const Paramete
     : triangulation(triangulation),
       parameters(parameters), context{parameters, BoxLattice<dim>(triangulation), phase_boundary_width},
       finest_level(parameters.largest_level()), membrane_criteria(make_membrane_criteria(context)),
-      cell_criteria(make_cell_criteria(context))
+      cell_criteria(make_cell_criteria(context)), balance(triangulation)
 {
 }
 
@@ -164,6 +166,34 @@ bool MeshAdaptation<dim>::sweep(const NeededCells &to_refine, const NeededCells 
 }
 
 template <int dim>
+std::vector<MeshCell<dim>> MeshAdaptation<dim>::find_membrane_cells(const Samples &samples) const
+{
+  unsigned int latest = 0;
+  for (const auto &sample : samples)
+    latest = std::max(latest, sample.time_level);
+  const CubeLattice<dim> lattice = context.box.of_level(finest_level);
+  const LatticeKey<dim> end = lattice.position_of_corner(context.box.upper);
+  LatticeSet<dim> visited;
+  std::vector<MeshCell<dim>> cells;
+  for (const auto &sample : samples)
+    if (const LatticeKey<dim> key = lattice.position_of(sample.point);
+        sample.time_level == latest && visited.insert(key).second)
+    {
+      MeshCell<dim> cell;
+      cell.level = finest_level;
+      bool is_in_box = true;
+      for (unsigned int d = 0; d < dim; ++d)
+      {
+        is_in_box = is_in_box && key[d] >= 0 && key[d] < end[d];
+        cell.position[d] = key[d];
+      }
+      if (is_in_box)
+        cells.push_back(cell);
+    }
+  return cells;
+}
+
+template <int dim>
 bool MeshAdaptation<dim>::limit_cells()
 {
   if (triangulation.n_global_active_cells() <= parameters.largest_number_of_cells)
@@ -214,6 +244,8 @@ bool MeshAdaptation<dim>::adapt(const Samples &samples, const CellSamples &cells
     changed = true;
     is_new = limit_cells();
   }
+  if (changed)
+    balance.divide_by(find_membrane_cells(samples));
   return changed;
 }
 

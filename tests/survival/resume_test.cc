@@ -152,7 +152,7 @@ TEST_F(Resume, CheckpointsComeAfterTheGivenNumberOfStepsAndTheLastAreKept)
     std::ifstream file(kept[i] + "/metadata.txt");
     const std::string metadata(std::istreambuf_iterator<char>(file), {});
     EXPECT_NE(metadata.find(expected_steps[i]), std::string::npos) << metadata;
-    for (const char *name : {"schema_version = 5\n", "finished = ", "statistics_columns = ",
+    for (const char *name : {"schema_version = 6\n", "finished = ", "statistics_columns = ",
                              "git_revision = ", "libraries = deal.II 9", "p4est",
                              "command_line = ", "date = 20", "file parameters.prm = ", "file state.h5 = "})
       EXPECT_NE(metadata.find(name), std::string::npos) << name << " in\n" << metadata;

@@ -26,7 +26,8 @@ struct CoupledState
 
   std::vector<MeshCell<dim>> mesh; ///< refinement has hysteresis, so that the membrane does not imply it
   MeshPolicyMemory<dim> mesh_policy;
-  unsigned int lowered_levels = 0; ///< by the limit on the number of cells
+  unsigned int lowered_levels = 0;           ///< by the limit on the number of cells
+  std::vector<MeshCell<dim>> membrane_cells; ///< by which the mesh is divided among the ranks
   /** Of all cells: far from the membrane the level set stays from the last change of the mesh. */
   std::vector<LevelSetCell<dim>> level_set;
   bool level_set_is_set_everywhere = false;

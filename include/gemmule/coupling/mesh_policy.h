@@ -72,6 +72,7 @@ public:
   unsigned int lowered_levels() const { return mesh_adaptation.lowered_levels(); }
 
   MeshAdaptation<dim> &adaptation() { return mesh_adaptation; }
+  const MeshAdaptation<dim> &adaptation() const { return mesh_adaptation; }
 
   const MeshPolicyMemory<dim> &get_memory() const { return memory; }
   void restore(const MeshPolicyMemory<dim> &earlier, unsigned int lowered_levels);

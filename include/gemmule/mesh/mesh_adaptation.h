@@ -2,6 +2,7 @@
 #pragma once
 
 #include <gemmule/base/cartesian_index.h>
+#include <gemmule/mesh/load_balance.h>
 #include <gemmule/mesh/refinement_criteria.h>
 
 #include <deal.II/distributed/tria.h>
@@ -34,8 +35,10 @@ public:
   bool is_too_coarse(const Samples &samples, unsigned int layers) const;
 
   /**
-   * Refines and coarsens until nothing changes. Coarsening leaves one layer more than refinement makes, and
-   * keeps what the criteria need with a margin, so that a membrane at rest does not make the mesh flicker.
+   * Refines and coarsens until nothing changes, and divides the new mesh among the ranks by work, where the
+   * samples of the latest time level tell which cells the membrane cuts. Coarsening leaves one layer more
+   * than refinement makes, and keeps what the criteria need with a margin, so that a membrane at rest does
+   * not make the mesh flicker.
    * @param cells of the mesh on which the flow was solved last; without any, cells are not coarsened below
    * what they are as long as there are criteria for cells
    * @return whether the mesh has changed. Collective.
@@ -51,11 +54,15 @@ public:
     return std::min(level, finest_level - n_lowered_levels);
   }
 
-  /** Levels that the limit on the number of cells has taken away so far: with the mesh, all that there is to
-   * save. */
+  /** Levels that the limit on the number of cells has taken away so far: with the mesh and the cells
+   * of load_balance(), all that there is to save. */
   unsigned int lowered_levels() const { return n_lowered_levels; }
   /** Continues an earlier run, in which the limit had taken away @p n levels. */
   void set_lowered_levels(const unsigned int n) { n_lowered_levels = n; }
+
+  /** How the mesh is divided among the ranks. */
+  LoadBalance<dim> &load_balance() { return balance; }
+  const LoadBalance<dim> &load_balance() const { return balance; }
 
 private:
   using Key = LatticeKey<dim>;
@@ -75,6 +82,8 @@ private:
   CellSamples present_cells() const;
   /** Refines and coarsens once, by at most one level. @return whether the mesh has changed. Collective. */
   bool sweep(const NeededCells &to_refine, const NeededCells &to_keep);
+  /** The cells of the finest level that have samples of the latest time level, each once. */
+  std::vector<MeshCell<dim>> find_membrane_cells(const Samples &samples) const;
   /** Lowers the finest level if there are too many cells. @return whether it has. */
   bool limit_cells();
 
@@ -85,5 +94,6 @@ private:
   std::vector<std::unique_ptr<MembraneRefinement<dim>>> membrane_criteria;
   std::vector<std::unique_ptr<CellRefinement<dim>>> cell_criteria;
   unsigned int n_lowered_levels = 0;
+  LoadBalance<dim> balance;
 };
 } // namespace Gemmule
