@@ -156,6 +156,10 @@ template <int dim>
 void ActiveDofs<dim>::append(const std::vector<types::global_dof_index> &dofs,
                              CondensedIndices &element) const
 {
+  element.indices.reserve(element.indices.size() + dofs.size());
+  element.entries.reserve(element.entries.size() + dofs.size());
+  element.row_start.reserve(element.row_start.size() + dofs.size());
+  element.inhomogeneities.reserve(element.inhomogeneities.size() + dofs.size());
   const auto add_entry = [&](const types::global_dof_index dof, const double weight)
   {
     const Index number_of_dof = number(dof);

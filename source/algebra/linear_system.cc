@@ -82,7 +82,7 @@ void LinearSystem::localise(const bool changed)
 }
 
 void LinearSystem::add_inhomogeneity(const unsigned int e, const FullMatrix<double> &local,
-                                     Vector &right_side) const
+                                     Vector &right_side, const double factor) const
 {
   const CondensedIndices &element = elements[e];
   const auto &g = element.inhomogeneities;
@@ -91,7 +91,7 @@ void LinearSystem::add_inhomogeneity(const unsigned int e, const FullMatrix<doub
   std::vector<double> product(element.n_local(), 0.);
   for (unsigned int i = 0; i < element.n_local(); ++i)
     for (unsigned int j = 0; j < element.n_local(); ++j)
-      product[i] -= local(i, j) * g[j];
+      product[i] -= factor * local(i, j) * g[j];
   add_right_side(e, product.data(), right_side);
 }
 

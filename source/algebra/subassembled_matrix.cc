@@ -13,67 +13,74 @@ void SubassembledMatrix::reinit(const std::shared_ptr<const Utilities::MPI::Part
   layout = partitioner;
   ++version;
   const unsigned int n = layout->locally_owned_size() + layout->n_ghost_indices();
-
-  // rows -> elements, then the union of the elements' unknowns row by row
-  std::vector<std::size_t> start(n + 1, 0);
-  for (const auto &element : elements)
-    for (const auto index : element.indices)
-      ++start[index + 1];
-  for (unsigned int row = 0; row < n; ++row)
-    start[row + 1] += start[row];
-  std::vector<unsigned int> elements_of_row(start[n]);
-  std::vector<std::size_t> fill(start.begin(), start.end() - 1);
-  for (unsigned int e = 0; e < elements.size(); ++e)
-    for (const auto index : elements[e].indices)
-      elements_of_row[fill[index]++] = e;
-
-  row_start.assign(n + 1, 0);
-  columns.clear();
-  std::vector<unsigned int> last_seen(n, numbers::invalid_unsigned_int);
-  for (unsigned int row = 0; row < n; ++row)
-  {
-    const std::size_t begin_of_row = columns.size();
-    for (std::size_t k = start[row]; k < start[row + 1]; ++k)
-      for (const auto column : elements[elements_of_row[k]].indices)
-        if ((!symmetric || column >= row) && last_seen[column] != row)
-        {
-          last_seen[column] = row;
-          columns.push_back(column);
-        }
-    std::sort(columns.begin() + begin_of_row, columns.end());
-    row_start[row + 1] = columns.size();
-  }
-  values.assign(columns.size(), 0.);
+  pattern.reinit(n, elements, symmetric);
+  entry_of_column.resize(n);
+  values.assign(pattern.n_entries(), 0.);
+  is_zero = true;
 }
 
 void SubassembledMatrix::set_zero()
 {
-  std::fill(values.begin(), values.end(), 0.);
+  if (!is_zero)
+    std::fill(values.begin(), values.end(), 0.);
+  is_zero = true;
 }
 
-void SubassembledMatrix::add(const CondensedIndices &element, const FullMatrix<double> &local)
+void SubassembledMatrix::find_runs(const CondensedIndices &element)
 {
-  const unsigned int n_local = element.n_local(), n_reduced = element.indices.size();
-  AssertDimension(local.m(), n_local);
-  condensed.reinit(n_reduced, n_reduced);
-  for (unsigned int i = 0; i < n_local; ++i)
-    for (unsigned int k = element.row_start[i]; k < element.row_start[i + 1]; ++k)
-    {
-      const double row_weight = element.entries[k].second;
-      double *const row = &condensed(element.entries[k].first, 0);
-      const double *const source = &local(i, 0);
-      for (unsigned int j = 0; j < n_local; ++j)
-        for (unsigned int l = element.row_start[j]; l < element.row_start[j + 1]; ++l)
-          row[element.entries[l].first] += row_weight * element.entries[l].second * source[j];
-    }
-  for (unsigned int i = 0; i < n_reduced; ++i)
+  runs.clear();
+  const auto &indices = element.indices;
+  for (unsigned int i = 0; i < indices.size(); ++i)
+    if (i > 0 && indices[i] == indices[i - 1] + 1)
+      ++runs.back().end;
+    else
+      runs.push_back({i, i + 1, 0});
+}
+
+void SubassembledMatrix::map_row(const unsigned int row)
+{
+  const std::size_t begin = row_begin(row), end = row_begin(row + 1);
+  for (std::size_t k = begin; k < end; ++k)
+    entry_of_column[column(k)] = k - begin;
+}
+
+void SubassembledMatrix::add(const CondensedIndices &element, const FullMatrix<double> &local,
+                             const double factor)
+{
+  AssertDimension(local.m(), element.n_local());
+  is_zero = false;
+  condensation.reinit(element);
+  find_runs(element);
+
+  auto first_run = runs.begin();
+  for (unsigned int i = 0; i < element.indices.size(); ++i)
   {
-    std::size_t position = row_start[element.indices[i]];
-    for (unsigned int j = symmetric ? i : 0; j < n_reduced; ++j)
+    if (symmetric && i == first_run->end)
+      ++first_run;
+    const unsigned int first = symmetric ? i : 0;
+    const double *const source = condensation.row(local, factor, i, first);
+    const unsigned int row = element.indices[i];
+    const std::size_t begin = row_begin(row), n = row_begin(row + 1) - begin;
+    bool is_mapped = false;
+    for (auto run = first_run; run != runs.end(); ++run)
     {
-      while (columns[position] != element.indices[j])
-        ++position;
-      values[position] += condensed(i, j);
+      const unsigned int run_begin = std::max(run->begin, first);
+      const unsigned int column_of_run = element.indices[run_begin];
+      std::size_t position = run->offset;
+      if (position >= n || column(begin + position) != column_of_run)
+      {
+        if (!is_mapped)
+          map_row(row);
+        is_mapped = true;
+        position = entry_of_column[column_of_run];
+        Assert(position < n && column(begin + position) == column_of_run,
+               ExcMessage("The pattern lacks an entry of the element."));
+      }
+      // The next row of an upper triangle begins one column later.
+      run->offset = symmetric && position > 0 ? position - 1 : position;
+      double *const target = values.data() + begin + position;
+      for (unsigned int j = run_begin; j < run->end; ++j)
+        target[j - run_begin] += source[j - first];
     }
   }
 }
@@ -81,11 +88,11 @@ void SubassembledMatrix::add(const CondensedIndices &element, const FullMatrix<d
 void SubassembledMatrix::vmult_add(double *const destination, const double *const source) const
 {
   for (unsigned int row = 0; row < n_rows(); ++row)
-    for (std::size_t k = row_start[row]; k < row_start[row + 1]; ++k)
+    for (std::size_t k = row_begin(row); k < row_begin(row + 1); ++k)
     {
-      destination[row] += values[k] * source[columns[k]];
-      if (symmetric && columns[k] != row)
-        destination[columns[k]] += values[k] * source[row];
+      destination[row] += values[k] * source[column(k)];
+      if (symmetric && column(k) != row)
+        destination[column(k)] += values[k] * source[row];
     }
 }
 } // namespace Gemmule

@@ -29,8 +29,15 @@ void StokesAssembler<dim>::assemble(const CutGeometry<dim> &geometry, LinearSyst
                                     LinearSystem::Vector &right_side)
 {
   system.zero_matrix();
-  add_cell_matrices(geometry, system, right_side);
-  add_face_matrices(system, right_side);
+  // Faces with their cells, as long as the rows of the matrix are in the cache.
+  auto face = faces.begin();
+  for (const StokesCellElement &cell : cells)
+  {
+    add_cell_matrix(cell, geometry, system, right_side);
+    for (; face != faces.end() && face->face->first == cell.cell; ++face)
+      add_face_matrices(*face, system, right_side);
+  }
+  Assert(face == faces.end(), ExcMessage("Faces must have the order of the cells."));
 }
 
 template <int dim>
@@ -90,39 +97,33 @@ void StokesAssembler<dim>::add_face_elements(const CutGeometry<dim> &geometry, L
 }
 
 template <int dim>
-void StokesAssembler<dim>::add_cell_matrices(const CutGeometry<dim> &geometry, LinearSystem &system,
-                                             LinearSystem::Vector &rhs)
+void StokesAssembler<dim>::add_cell_matrix(const StokesCellElement &cell, const CutGeometry<dim> &geometry,
+                                           LinearSystem &system, LinearSystem::Vector &rhs)
 {
-  FullMatrix<double> cut_matrix(CutCellMatrix<dim>::n, CutCellMatrix<dim>::n);
-  for (const StokesCellElement &c : cells)
-  {
-    const FullMatrix<double> *matrix = &cut_matrix;
-    if (c.location == CellLocation::cut)
-      cut_cell_matrix.compute(*geometry.find(c.cell), cut_matrix);
-    else
-      matrix = &uncut_cell_matrix(c.cell, c.location == CellLocation::inside ? 0 : 1);
-    system.add_matrix(c.element, *matrix);
-    system.add_inhomogeneity(c.element, *matrix, rhs);
-  }
+  const FullMatrix<double> *matrix = &cut_matrix;
+  if (cell.location == CellLocation::cut)
+    cut_cell_matrix.compute(*geometry.find(cell.cell), cut_matrix);
+  else
+    matrix = &uncut_cell_matrix(cell.cell, cell.location == CellLocation::inside ? 0 : 1);
+  system.add_matrix(cell.element, *matrix);
+  system.add_inhomogeneity(cell.element, *matrix, rhs);
 }
 
 template <int dim>
-void StokesAssembler<dim>::add_face_matrices(LinearSystem &system, LinearSystem::Vector &rhs)
+void StokesAssembler<dim>::add_face_matrices(const FaceElement &face, LinearSystem &system,
+                                             LinearSystem::Vector &rhs)
 {
-  FullMatrix<double> velocity(2 * Layout::n_velocity_nodes), pressure(2 * Layout::n_pressure_nodes);
-  for (const FaceElement &f : faces)
+  const GhostPenaltyMatrices &unit = reference.face(face.face->face_number, face.face->refinement);
+  const double h = space.cell_size(face.face->first);
+  const double viscosity = pair.viscosity[face.fluid];
+  const double velocity_factor = viscosity * std::pow(h, dim - 2);
+  const double pressure_factor = -std::pow(h, dim) / viscosity;
+  for (unsigned int c = 0; c <= dim; ++c)
   {
-    const GhostPenaltyMatrices &unit = reference.face(f.face->face_number, f.face->refinement);
-    const double h = space.cell_size(f.face->first);
-    const double viscosity = pair.viscosity[f.fluid];
-    velocity.equ(viscosity * std::pow(h, dim - 2), unit.velocity);
-    pressure.equ(-std::pow(h, dim) / viscosity, unit.pressure);
-    for (unsigned int c = 0; c <= dim; ++c)
-    {
-      const FullMatrix<double> &matrix = c < dim ? velocity : pressure;
-      system.add_matrix(f.first_element + c, matrix);
-      system.add_inhomogeneity(f.first_element + c, matrix, rhs);
-    }
+    const FullMatrix<double> &matrix = c < dim ? unit.velocity : unit.pressure;
+    const double factor = c < dim ? velocity_factor : pressure_factor;
+    system.add_matrix(face.first_element + c, matrix, factor);
+    system.add_inhomogeneity(face.first_element + c, matrix, rhs, factor);
   }
 }
 

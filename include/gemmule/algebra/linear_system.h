@@ -59,14 +59,15 @@ public:
   void reinit(Vector &vector) const { vector.reinit(partitioner); }
 
   void zero_matrix() { sum.set_zero(); }
-  /** matrix += T^T local T. */
-  void add_matrix(const unsigned int element, const dealii::FullMatrix<double> &local)
+  /** matrix += factor T^T local T. */
+  void add_matrix(const unsigned int element, const dealii::FullMatrix<double> &local,
+                  const double factor = 1.)
   {
-    sum.add(elements[element], local);
+    sum.add(elements[element], local, factor);
   }
-  /** right_side -= T^T (local g), the contribution of inhomogeneous constraints. */
-  void add_inhomogeneity(unsigned int element, const dealii::FullMatrix<double> &local,
-                         Vector &right_side) const;
+  /** right_side -= factor T^T (local g), the contribution of inhomogeneous constraints. */
+  void add_inhomogeneity(unsigned int element, const dealii::FullMatrix<double> &local, Vector &right_side,
+                         double factor = 1.) const;
   /** right_side += T^T local. */
   void add_right_side(unsigned int element, const double *local, Vector &right_side) const;
   /** The local dofs of an element from a ghosted solution; @p homogeneous: without g. */

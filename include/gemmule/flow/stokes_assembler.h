@@ -71,19 +71,21 @@ private:
 
   void add_cell_elements(const CutGeometry<dim> &geometry, LinearSystem &system);
   void add_face_elements(const CutGeometry<dim> &geometry, LinearSystem &system);
-  void add_cell_matrices(const CutGeometry<dim> &geometry, LinearSystem &system, LinearSystem::Vector &rhs);
-  void add_face_matrices(LinearSystem &system, LinearSystem::Vector &rhs);
+  void add_cell_matrix(const StokesCellElement &cell, const CutGeometry<dim> &geometry, LinearSystem &system,
+                       LinearSystem::Vector &rhs);
+  void add_face_matrices(const FaceElement &face, LinearSystem &system, LinearSystem::Vector &rhs);
   const dealii::FullMatrix<double> &uncut_cell_matrix(unsigned int cell, unsigned int fluid);
 
   const UnfittedStokesSpace<dim> &space;
   FluidPair pair;
   StokesReferenceMatrices<dim> reference;
   CutCellMatrix<dim> cut_cell_matrix;
+  dealii::FullMatrix<double> cut_matrix{CutCellMatrix<dim>::n}; ///< of the cell that is added
   std::array<std::map<unsigned int, dealii::FullMatrix<double>>, 2> uncut_matrices; ///< by level
 
   std::vector<StokesCellElement> cells;
   std::vector<unsigned int> cut_elements;
   std::vector<CondensedIndices> cut_indices;
-  std::vector<FaceElement> faces;
+  std::vector<FaceElement> faces; ///< in the order of their first cells
 };
 } // namespace Gemmule
