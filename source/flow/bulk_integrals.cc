@@ -6,70 +6,67 @@ namespace Gemmule
 using namespace dealii;
 
 template <int dim>
-void BulkIntegrals<dim>::clear()
-{
-  for (auto &row : gradients)
-    row.fill(0.);
-  for (auto &row : divergences)
-    row.fill(0.);
-}
-
-template <int dim>
 void BulkIntegrals<dim>::add(const Point<dim> &point, const double weight)
 {
-  typename Layout::VelocityBasis::Values phi;
-  typename Layout::VelocityBasis::Gradients grad_phi;
-  typename Layout::PressureBasis::Values psi;
-  Layout::VelocityBasis::evaluate(point, phi, grad_phi);
-  Layout::PressureBasis::evaluate(point, psi);
-
-  std::array<double, ng> g;
-  for (unsigned int a = 0; a < dim; ++a)
-    for (unsigned int i = 0; i < nv; ++i)
-      g[a * nv + i] = grad_phi[i][a];
-  for (unsigned int r = 0; r < ng; ++r)
-  {
-    const double factor = weight * g[r];
-    auto &row = gradients[r];
-    for (unsigned int c = r; c < ng; ++c)
-      row[c] += factor * g[c];
-    for (unsigned int j = 0; j < np; ++j)
-      divergences[r][j] += factor * psi[j];
-  }
+  typename GridRule<dim>::Weights grid_weights;
+  GridRule<dim>::evaluate(point, grid_weights);
+  rule.add(grid_weights, weight);
 }
 
 template <int dim>
 void BulkIntegrals<dim>::add_to(FullMatrix<double> &matrix, const unsigned int offset,
                                 const double velocity_scale, const double pressure_scale) const
 {
-  const auto product = [this](const unsigned int r, const unsigned int c)
-  { return r <= c ? gradients[r][c] : gradients[c][r]; };
+  using Products = ShapeProducts<dim>;
+  constexpr unsigned int nv = Layout::n_velocity_nodes, np = Layout::n_pressure_nodes;
+  const auto velocity_row = [&](const unsigned int c, const unsigned int i, const unsigned int d)
+  { return &matrix(offset + Layout::velocity(c, i), offset + Layout::velocity(d, 0)); };
 
   // 2 D(phi_i e_c) : D(phi_j e_d) = delta_cd grad phi_i . grad phi_j + d_d phi_i d_c phi_j
+  std::array<typename Products::VelocityMatrix, dim> second; // d_c phi_i d_c phi_j
   for (unsigned int c = 0; c < dim; ++c)
-    for (unsigned int d = c; d < dim; ++d)
+    Products::velocity(rule.weights(), c, c, second[c]);
+  typename Products::VelocityMatrix laplacian = second[0];
+  for (unsigned int c = 1; c < dim; ++c)
+    for (unsigned int i = 0; i < nv; ++i)
+      for (unsigned int j = 0; j < nv; ++j)
+        laplacian[i][j] += second[c][i][j];
+  typename Products::VelocityMatrix mixed;
+  for (unsigned int c = 0; c < dim; ++c)
+  {
+    for (unsigned int i = 0; i < nv; ++i)
+    {
+      double *const row = velocity_row(c, i, c);
+      for (unsigned int j = 0; j < nv; ++j)
+        row[j] += velocity_scale * (laplacian[i][j] + second[c][i][j]);
+    }
+    for (unsigned int d = c + 1; d < dim; ++d)
+    {
+      Products::velocity(rule.weights(), c, d, mixed);
       for (unsigned int i = 0; i < nv; ++i)
-        for (unsigned int j = (c == d ? i : 0); j < nv; ++j)
+      {
+        double *const lower = velocity_row(d, i, c), *const upper = velocity_row(c, i, d);
+        for (unsigned int j = 0; j < nv; ++j)
         {
-          double value = product(d * nv + i, c * nv + j);
-          if (c == d)
-            for (unsigned int a = 0; a < dim; ++a)
-              value += product(a * nv + i, a * nv + j);
-          value *= velocity_scale;
-          const unsigned int row = offset + Layout::velocity(c, i), column = offset + Layout::velocity(d, j);
-          matrix(row, column) += value;
-          if (row != column)
-            matrix(column, row) += value;
+          lower[j] += velocity_scale * mixed[i][j];
+          upper[j] += velocity_scale * mixed[j][i];
         }
+      }
+    }
+  }
 
+  typename Products::MixedMatrix divergence;
   for (unsigned int c = 0; c < dim; ++c)
+  {
+    Products::mixed(rule.weights(), c, divergence);
     for (unsigned int i = 0; i < nv; ++i)
       for (unsigned int j = 0; j < np; ++j)
       {
-        const double value = -pressure_scale * divergences[c * nv + i][j];
+        const double value = -pressure_scale * divergence[i][j];
         matrix(offset + Layout::velocity(c, i), offset + Layout::pressure(j)) += value;
         matrix(offset + Layout::pressure(j), offset + Layout::velocity(c, i)) += value;
       }
+  }
 }
 
 template class BulkIntegrals<2>;

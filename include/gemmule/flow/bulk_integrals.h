@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <gemmule/flow/shape_products.h>
 #include <gemmule/flow/stokes_layout.h>
 
 #include <deal.II/lac/full_matrix.h>
-
-#include <array>
 
 namespace Gemmule
 {
@@ -13,8 +12,8 @@ namespace Gemmule
  * Integrals over (a part of) one cell from which the element matrix of the Stokes operator
  * int 2 eta D(u):D(v) - p div v - q div u follows for any viscosity and cell size.
  *
- * Only products of scalar shape functions are accumulated point by point: the vector-valued matrix is a
- * rearrangement of them.
+ * Point by point only the weights of a GridRule are accumulated: the integrals of the products of scalar
+ * shapes follow from them, and the vector-valued matrix is a rearrangement of these.
  */
 template <int dim>
 class BulkIntegrals
@@ -22,7 +21,7 @@ class BulkIntegrals
 public:
   using Layout = StokesLayout<dim>;
 
-  void clear();
+  void clear() { rule.clear(); }
 
   /** Adds one quadrature point in unit coordinates. */
   void add(const dealii::Point<dim> &point, double weight);
@@ -37,13 +36,6 @@ public:
               double pressure_scale) const;
 
 private:
-  static constexpr unsigned int nv = Layout::n_velocity_nodes;
-  static constexpr unsigned int np = Layout::n_pressure_nodes;
-  static constexpr unsigned int ng = dim * nv;
-
-  /** int d_a phi_i d_b phi_j, row a nv + i, column b nv + j; upper triangle. */
-  std::array<std::array<double, ng>, ng> gradients;
-  /** int d_a phi_i psi_j. */
-  std::array<std::array<double, np>, ng> divergences;
+  GridRule<dim> rule;
 };
 } // namespace Gemmule

@@ -47,26 +47,24 @@ public:
   void compute(const CutCell<dim> &cell, dealii::FullMatrix<double> &matrix);
 
 private:
+  using Products = ShapeProducts<dim>;
+  using VelocityMatrix = typename Products::VelocityMatrix;
+
   void integrate_membrane(const CutCell<dim> &cell);
-  void add_membrane_terms(double h, dealii::FullMatrix<double> &matrix) const;
+  void add_membrane_velocity(double h, dealii::FullMatrix<double> &matrix) const;
+  void add_membrane_pressure(dealii::FullMatrix<double> &matrix) const;
 
   static constexpr unsigned int nv = Layout::n_velocity_nodes;
   static constexpr unsigned int np = Layout::n_pressure_nodes;
-  // Columns of the integrals of phi_i times: phi_j; n_d d_c phi_j; n_c psi_j.
-  static constexpr unsigned int column_value(unsigned int j) { return j; }
-  static constexpr unsigned int column_gradient(unsigned int d, unsigned int c, unsigned int j)
-  {
-    return nv * (1 + d * dim + c) + j;
-  }
-  static constexpr unsigned int column_pressure(unsigned int c, unsigned int j)
-  {
-    return nv * (1 + dim * dim) + c * np + j;
-  }
-  static constexpr unsigned int n_columns = nv * (1 + dim * dim) + dim * np;
 
   FluidPair fluids;
   double nitsche_penalty;
   BulkIntegrals<dim> bulk;
-  std::array<std::array<double, n_columns>, nv> membrane;
+  // On the membrane, in unit coordinates:
+  VelocityMatrix mass; ///< phi_i phi_j
+  /** [c][d]: the component c of the viscous traction of phi_j e_d, times phi_i:
+   * (delta_cd d_n phi_j + n_d d_c phi_j) phi_i. */
+  std::array<std::array<VelocityMatrix, dim>, dim> traction;
+  std::array<typename Products::MixedMatrix, dim> pressure; ///< [c]: n_c phi_i psi_j
 };
 } // namespace Gemmule
