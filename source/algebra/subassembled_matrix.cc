@@ -88,11 +88,25 @@ void SubassembledMatrix::add(const CondensedIndices &element, const FullMatrix<d
 void SubassembledMatrix::vmult_add(double *const destination, const double *const source) const
 {
   for (unsigned int row = 0; row < n_rows(); ++row)
-    for (std::size_t k = row_begin(row); k < row_begin(row + 1); ++k)
+  {
+    std::size_t k = row_begin(row);
+    const std::size_t end = row_begin(row + 1);
+    double sum = 0.;
+    if (symmetric)
     {
-      destination[row] += values[k] * source[column(k)];
-      if (symmetric && column(k) != row)
-        destination[column(k)] += values[k] * source[row];
+      const double value = source[row];
+      if (k < end && column(k) == row) // the diagonal comes first, and has no mirror image
+        sum += values[k++] * value;
+      for (; k < end; ++k)
+      {
+        sum += values[k] * source[column(k)];
+        destination[column(k)] += values[k] * value;
+      }
     }
+    else
+      for (; k < end; ++k)
+        sum += values[k] * source[column(k)];
+    destination[row] += sum;
+  }
 }
 } // namespace Gemmule

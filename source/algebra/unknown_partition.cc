@@ -33,6 +33,7 @@ IndexSet UnknownPartition::owned(const unsigned int rank) const
 {
   IndexSet set(size());
   set.add_range(begin[rank * parts], begin[(rank + 1) * parts]);
+  set.compress();
   return set;
 }
 
@@ -40,6 +41,7 @@ IndexSet UnknownPartition::owned(const unsigned int rank, const unsigned int par
 {
   IndexSet set(size());
   set.add_range(begin[rank * parts + part], begin[rank * parts + part + 1]);
+  set.compress();
   return set;
 }
 } // namespace Gemmule
