@@ -185,6 +185,26 @@ void ActiveDofs<dim>::append(const std::vector<types::global_dof_index> &dofs,
   }
 }
 
+template <int dim>
+void ActiveDofs<dim>::copy_to_dofs(const LinearAlgebra::distributed::Vector<double> &solution,
+                                   std::vector<double> &by_dof) const
+{
+  by_dof.assign(layout->locally_owned_size(), 0.);
+  for (unsigned int i = 0; i < by_dof.size(); ++i)
+    if (numbers[i] != dealii::numbers::invalid_dof_index)
+      by_dof[i] = solution(numbers[i]);
+}
+
+template <int dim>
+void ActiveDofs<dim>::copy_from_dofs(const std::vector<double> &by_dof,
+                                     LinearAlgebra::distributed::Vector<double> &solution) const
+{
+  AssertDimension(by_dof.size(), layout->locally_owned_size());
+  for (unsigned int i = 0; i < by_dof.size(); ++i)
+    if (numbers[i] != dealii::numbers::invalid_dof_index)
+      solution(numbers[i]) = by_dof[i];
+}
+
 template class ActiveDofs<2>;
 template class ActiveDofs<3>;
 } // namespace Gemmule

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <gemmule/algebra/mumps_solver.h>
 #include <gemmule/base/arrival.h>
+#include <gemmule/base/available_memory.h>
 #include <gemmule/base/exceptions.h>
 
 #include <deal.II/base/exceptions.h>
@@ -9,7 +10,9 @@
 
 #include <dmumps_c.h>
 #include <exception>
+#include <iomanip>
 #include <limits>
+#include <sstream>
 #include <string>
 
 namespace Gemmule
@@ -21,6 +24,9 @@ namespace
   // MUMPS' documentation counts its control parameters from one.
   constexpr int job_initialise = -1, job_terminate = -2, job_analyse = 1, job_factorise = 2, job_solve = 3;
   constexpr int error_workspace_too_small = -9, error_integer_workspace_too_small = -8;
+  constexpr int order_by_approximate_minimum_degree = 0, order_by_pord = 4;
+  constexpr int default_extra_workspace = 60, largest_extra_workspace = 2000; // percent
+  constexpr double megabyte = 1e6;
 } // namespace
 
 struct MumpsSolver::Instance
@@ -29,6 +35,8 @@ struct MumpsSolver::Instance
   MPI_Comm communicator;
   std::vector<int> rows, columns;
   std::vector<double> values;
+  unsigned int fixed_here = numbers::invalid_unsigned_int; ///< an owned unknown that is to be zero
+  double allocated = 0.;            ///< for the present factors on this process, in bytes
   unsigned int pattern_version = 0; ///< of the matrix that has been analysed; 0: none
 
   // MUMPS leaves each part of the solution where the last pivots of it were, and tells where that is.
@@ -49,6 +57,12 @@ struct MumpsSolver::Instance
     dmumps_c(&mumps);
   }
 
+  static std::string how_to_save_memory()
+  {
+    return "Take fewer cells ('Mesh/Largest number of cells'), or more processes on more machines. For the "
+           "flow the iterative solver needs less ('Flow discretisation/Solver').";
+  }
+
   void check(const std::string &stage) const
   {
     // MUMPS users' guide, "Error diagnostics"
@@ -61,9 +75,8 @@ struct MumpsSolver::Instance
           "it with a higher 'Mesh/Membrane level'.");
     case allocation_failed:
     case memory_limit:
-      throw SimulationError(
-          "There is not enough memory for the direct solver MUMPS. Take fewer cells ('Mesh/Largest number of "
-          "cells'), or more processes on more machines.");
+      throw SimulationError("There is not enough memory for the direct solver MUMPS. " +
+                            how_to_save_memory());
     default:
       if (infog(1) < 0)
         throw SimulationError("The direct solver MUMPS failed in its " + stage + " (INFOG(1) = " +
@@ -72,7 +85,8 @@ struct MumpsSolver::Instance
   }
 };
 
-MumpsSolver::MumpsSolver(const MPI_Comm communicator, const bool symmetric) : instance(new Instance)
+MumpsSolver::MumpsSolver(const MPI_Comm communicator, const bool symmetric, const Ordering ordering)
+    : instance(new Instance)
 {
   auto &m = instance->mumps;
   instance->communicator = communicator;
@@ -83,11 +97,12 @@ MumpsSolver::MumpsSolver(const MPI_Comm communicator, const bool symmetric) : in
   instance->check("initialisation");
   for (const int output : {1, 2, 3, 4})
     instance->icntl(output) = 0; // silent: errors are reported through exceptions
-  instance->icntl(7) = 0;        // approximate minimum degree
-  instance->icntl(18) = 3;       // distributed entries, positions given by the user
-  instance->icntl(14) = 60;      // percent of extra workspace, for delayed pivots of the indefinite matrix
-  instance->icntl(20) = 10;      // right sides are distributed
-  instance->icntl(21) = 1;       // and so are solutions
+  instance->icntl(7) = ordering == Ordering::pord ? order_by_pord : order_by_approximate_minimum_degree;
+  instance->icntl(18) = 3; // distributed entries, positions given by the user
+  // For delayed pivots of the indefinite matrix.
+  instance->icntl(14) = default_extra_workspace;
+  instance->icntl(20) = 10; // right sides are distributed
+  instance->icntl(21) = 1;  // and so are solutions
 }
 
 MumpsSolver::~MumpsSolver()
@@ -99,14 +114,16 @@ MumpsSolver::~MumpsSolver()
   instance->run(job_terminate);
 }
 
-void MumpsSolver::prepare(const SubassembledMatrix &matrix, const BlockNumbering &numbering)
+void MumpsSolver::prepare(const SubassembledMatrix &matrix, const BlockNumbering &numbering,
+                          const Index fixed)
 {
   if (instance->pattern_version != matrix.pattern_version())
   {
     analyse(matrix, numbering.size());
     instance->pattern_version = matrix.pattern_version();
   }
-  factorise(matrix.entry_values());
+  copy_values(matrix, fixed);
+  factorise();
 }
 
 void MumpsSolver::analyse(const SubassembledMatrix &matrix, const unsigned long long n)
@@ -139,15 +156,52 @@ void MumpsSolver::analyse(const SubassembledMatrix &matrix, const unsigned long 
     instance->right_side_rows[i] = number(i);
   instance->run(job_analyse);
   instance->check("analysis");
+  check_memory();
 }
 
-void MumpsSolver::factorise(const std::vector<double> &values)
+void MumpsSolver::check_memory() const
 {
-  AssertDimension(values.size(), instance->rows.size());
-  instance->values = values;
-  instance->mumps.a_loc = instance->values.data();
+  // Estimates of the analysis, with the extra workspace, most of which is only reserved. Earlier factors go.
+  constexpr double negligible = 1e8; // of any machine
+  const double estimate = megabyte * instance->mumps.info[15 - 1];
+  if (Utilities::MPI::max(estimate, instance->communicator) < negligible)
+    return;
+  const double reserved = estimate - instance->allocated;
+  const double touched = estimate / (1. + 0.01 * default_extra_workspace) - instance->allocated;
+  const MemoryBudget memory = scarcest_memory(touched, reserved, instance->communicator);
+  if (memory.suffices())
+    return;
+  std::ostringstream message;
+  message << std::setprecision(2) << "The direct solver MUMPS would need about " << 1e-9 * memory.needed
+          << " GB of memory for " << instance->mumps.n << " unknowns, and only " << 1e-9 * memory.left
+          << " GB are left. " << Instance::how_to_save_memory();
+  throw SimulationError(message.str());
+}
+
+void MumpsSolver::copy_values(const SubassembledMatrix &matrix, const Index fixed)
+{
+  AssertDimension(matrix.n_entries(), instance->rows.size());
+  auto &values = instance->values;
+  values = matrix.entry_values();
+  instance->mumps.a_loc = values.data();
+  instance->fixed_here = numbers::invalid_unsigned_int;
+  const auto &partitioner = *matrix.partitioner();
+  if (fixed == numbers::invalid_dof_index ||
+      !(partitioner.in_local_range(fixed) || partitioner.is_ghost_entry(fixed)))
+    return;
+
+  const unsigned int position = partitioner.global_to_local(fixed);
+  for (unsigned int row = 0; row < matrix.n_rows(); ++row)
+    for (std::size_t k = matrix.row_begin(row); k < matrix.row_begin(row + 1); ++k)
+      if (row == position || matrix.column(k) == position)
+        values[k] = row == matrix.column(k) && partitioner.in_local_range(fixed) ? 1. : 0.;
+  if (partitioner.in_local_range(fixed))
+    instance->fixed_here = position;
+}
+
+void MumpsSolver::factorise()
+{
   instance->solution_is_located = false;
-  const int default_extra_workspace = 60, largest_extra_workspace = 2000;
   instance->icntl(14) = default_extra_workspace;
   while (true)
   {
@@ -159,6 +213,7 @@ void MumpsSolver::factorise(const std::vector<double> &values)
     instance->icntl(14) *= 2;
   }
   instance->check("factorisation");
+  instance->allocated = megabyte * instance->mumps.info[19 - 1];
 }
 
 void MumpsSolver::Instance::locate_solution(const IndexSet &owned)
@@ -176,6 +231,14 @@ void MumpsSolver::Instance::locate_solution(const IndexSet &owned)
   solution_is_located = true;
 }
 
+LinearSolver::Report MumpsSolver::report() const
+{
+  Report report;
+  report.method = "MUMPS";
+  report.memory = megabyte * instance->mumps.info[22 - 1];
+  return report;
+}
+
 void MumpsSolver::solve(const std::vector<Vector> &right_sides, std::vector<Vector> &solutions)
 {
   auto &m = instance->mumps;
@@ -184,7 +247,10 @@ void MumpsSolver::solve(const std::vector<Vector> &right_sides, std::vector<Vect
   for (unsigned int c = 0; c < n_rhs; ++c)
   {
     AssertDimension(right_sides[c].locally_owned_size(), n_owned);
-    std::copy_n(right_sides[c].begin(), n_owned, instance->right_side_values.begin() + c * n_owned);
+    double *const values = instance->right_side_values.data() + static_cast<std::size_t>(c) * n_owned;
+    std::copy_n(right_sides[c].begin(), n_owned, values);
+    if (instance->fixed_here != numbers::invalid_unsigned_int)
+      values[instance->fixed_here] = 0.;
   }
   m.nrhs = n_rhs;
   m.nloc_rhs = m.lrhs_loc = n_owned;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <gemmule/application/case_check.h>
 #include <gemmule/application/command_line.h>
 #include <gemmule/application/termination_signals.h>
 #include <gemmule/application/vesicle_problem.h>
@@ -97,11 +98,11 @@ void say(const std::string &text)
 }
 
 template <int dim>
-int compute(const AllParameters &parameters, const CommandLine &command, std::vector<std::string> &warnings)
+int compute(const AllParameters &parameters, const CommandLine &command, CaseCheck &check)
 {
   if (command.check)
   {
-    warnings = check_case<dim>(parameters, MPI_COMM_WORLD);
+    check = check_case<dim>(parameters, MPI_COMM_WORLD);
     return finished;
   }
   if (!command.resume)
@@ -144,7 +145,7 @@ int main(int argc, char **argv)
     done = command.print_parameters || !command.information.empty();
     return finished;
   };
-  std::vector<std::string> warnings;
+  CaseCheck check;
   int code = run_on_all(prepare, communicator);
   if (code == finished && !done)
   {
@@ -153,8 +154,8 @@ int main(int argc, char **argv)
         {
           try
           {
-            return parameters.dimension == 2 ? compute<2>(parameters, command, warnings)
-                                             : compute<3>(parameters, command, warnings);
+            return parameters.dimension == 2 ? compute<2>(parameters, command, check)
+                                             : compute<3>(parameters, command, check);
           }
           catch (const ParameterError &error)
           {
@@ -167,10 +168,10 @@ int main(int argc, char **argv)
           [&]() -> int
           {
             std::string text;
-            for (const std::string &warning : warnings)
+            for (const std::string &warning : check.warnings)
               text += "warning: " + warning + "\n";
             if (speaks)
-              say(text + command.case_file + ": the parameters are valid.\n");
+              say(text + command.case_file + ": the parameters are valid.\n" + check.size + "\n");
             return finished;
           },
           communicator);

@@ -154,6 +154,7 @@ StatisticsRow make_statistics(const CoupledSystem<dim> &system, const InterfaceS
   row.time = system.computed_time();
   row.cells = system.mesh().n_global_active_cells();
   row.flow_dofs = flow.n_unknowns();
+  row.linear_iterations = flow.linear_solver_report().iterations;
 
   const auto moments = compute_region_moments<dim>(system.mesh(), geometry);
   row.centroid_x = moments.centroid[0];

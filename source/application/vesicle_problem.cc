@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <gemmule/application/case_check.h>
 #include <gemmule/application/checkpoints.h>
 #include <gemmule/application/run_results.h>
 #include <gemmule/application/step_attempts.h>
@@ -15,32 +16,6 @@
 namespace Gemmule
 {
 using namespace dealii;
-
-namespace
-{
-  /** What can be said against a case before its first step, although it can be computed. */
-  template <int dim>
-  std::vector<std::string> warnings_of(const CoupledSystem<dim> &system)
-  {
-    std::vector<std::string> warnings = system.initial_warnings();
-    if (system.get_surface() == nullptr)
-      return warnings;
-    if (const auto warning = system.get_model().ill_posedness_warning())
-      warnings.push_back(*warning);
-    // A 10-90 % width of a phase boundary is 6.2 Cahn numbers.
-    constexpr double cahn_numbers_per_cell = 3.2;
-    const AllParameters &parameters = system.get_parameters();
-    const double size = parameters.domain.cell_size(parameters.mesh.phase_boundary_level),
-                 cahn_number = parameters.membrane.cahn_number;
-    if (size > cahn_numbers_per_cell * cahn_number && parameters.mesh.cells_per_phase_boundary == 0.)
-      warnings.push_back(
-          "the cells of 'Mesh/Phase boundary level' have edges of " + rounded(size) + ", " +
-          rounded(size / cahn_number) + " times 'Membrane/Cahn number' = " + rounded(cahn_number) +
-          ": about three times is the most that resolves phase boundaries. Raise the level, or set "
-          "'Mesh/Cells per phase boundary' and 'Mesh/Finest level'.");
-    return warnings;
-  }
-} // namespace
 
 template <int dim>
 VesicleProblem<dim>::VesicleProblem(const AllParameters &parameters, const MPI_Comm communicator,
@@ -147,8 +122,9 @@ void VesicleProblem<dim>::announce() const
               std::to_string(system->get_flow().n_unknowns()) + " unknowns of the flow" +
               (system->get_surface() != nullptr
                    ? ", " + std::to_string(system->get_surface()->n_unknowns()) + " of the phases"
-                   : ""));
-  for (const std::string &warning : warnings_of(*system))
+                   : "") +
+              "; the flow is solved by " + describe(system->get_flow().linear_solver_report(), communicator));
+  for (const std::string &warning : warnings_before_start(*system))
     log->warn(warning);
 }
 
@@ -206,16 +182,7 @@ int VesicleProblem<dim>::run_steps()
   return 0;
 }
 
-template <int dim>
-std::vector<std::string> check_case(const AllParameters &parameters, const MPI_Comm communicator)
-{
-  CoupledSystem<dim> system(parameters, communicator);
-  system.initialise();
-  return warnings_of(system);
-}
-
 template class VesicleProblem<2>;
-template std::vector<std::string> check_case<2>(const AllParameters &, MPI_Comm);
 
 template <>
 VesicleProblem<3>::VesicleProblem(const AllParameters &parameters, const MPI_Comm communicator,
@@ -235,11 +202,5 @@ template <>
 int VesicleProblem<3>::run()
 {
   return 1;
-}
-template <>
-std::vector<std::string> check_case<3>(const AllParameters &parameters, const MPI_Comm communicator)
-{
-  VesicleProblem<3>(parameters, communicator, "", false);
-  return {};
 }
 } // namespace Gemmule

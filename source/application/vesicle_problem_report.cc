@@ -43,6 +43,8 @@ void VesicleProblem<dim>::report()
 {
   results->report(*system, attempts->errors(), wall_time());
   warn_of_negative_tension();
+  if (const auto solver = system->get_flow().linear_solver_report(); !solver.warning.empty())
+    log->warn_once("solver of the flow", solver.warning);
   if (system->lowered_levels() > 0)
     log->warn_once("too many cells", "the mesh needs more than 'Mesh/Largest number of cells' = " +
                                          std::to_string(parameters.mesh.largest_number_of_cells) +

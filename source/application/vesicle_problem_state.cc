@@ -71,6 +71,7 @@ std::string VesicleProblem<dim>::write_checkpoint()
   state.retries = retries.memory();
   state.wall_time = wall_time();
   results->save(state);
+  system->forget_last_flow();
   return checkpoints->write(state, provenance);
 }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <gemmule/flow/bending_schur_complement.h>
 #include <gemmule/flow/semi_implicit_bending.h>
 #include <gemmule/surface/trace_forms.h>
 
@@ -16,6 +17,14 @@ SemiImplicitBending<dim>::SemiImplicitBending(const double coefficient,
     : scale(std::sqrt(coefficient / capillary_number)), space(std::move(space)),
       old_velocity(std::move(old_velocity))
 {
+}
+
+template <int dim>
+std::unique_ptr<ExtraFieldPreconditioner>
+SemiImplicitBending<dim>::extra_field_preconditioner(const FluidPair &fluids) const
+{
+  const double response = 3. * scale * scale / (numbers::PI * (fluids.viscosity[0] + fluids.viscosity[1]));
+  return std::make_unique<BendingSchurComplement<dim>>(*space, response);
 }
 
 template <int dim>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <gemmule/flow/flow_system_solver.h>
 #include <gemmule/flow/stokes_solver.h>
 #include <gemmule/parameters/discretisation.h>
 #include <gemmule/parameters/fluid.h>
@@ -14,8 +15,29 @@ StokesSolver<dim>::StokesSolver(const parallel::distributed::Triangulation<dim> 
                                 const Parameters::Fluid &fluid, const Parameters::Flow &discretisation,
                                 std::unique_ptr<LinearSolver> linear_solver)
     : capillary_number(fluid.capillary_number), space(triangulation), assembler(space, fluid, discretisation),
-      system(triangulation.get_communicator(), true, std::move(linear_solver))
+      system(triangulation.get_communicator(), true, connect(std::move(linear_solver), discretisation))
 {
+}
+
+template <int dim>
+std::unique_ptr<LinearSolver> StokesSolver<dim>::connect(std::unique_ptr<LinearSolver> linear_solver,
+                                                         const Parameters::Flow &discretisation)
+{
+  if (linear_solver == nullptr)
+    linear_solver = std::make_unique<FlowSystemSolver>(space.communicator(), dim, discretisation);
+  if (auto *const flow_solver = dynamic_cast<FlowLinearSolver *>(linear_solver.get()))
+    flow_solver->set_structure_source([this] { return find_structure(); });
+  return linear_solver;
+}
+
+template <int dim>
+std::unique_ptr<const FlowStructure> StokesSolver<dim>::find_structure() const
+{
+  auto structure = find_flow_structure(space, *geometry, assembler.fluids(), system);
+  for (const auto &term : terms)
+    if (term->extra_field_space() != nullptr)
+      structure->extra_fields.push_back(term->extra_field_preconditioner(assembler.fluids()));
+  return structure;
 }
 
 template <int dim>
@@ -23,6 +45,7 @@ void StokesSolver<dim>::reinit_mesh()
 {
   space.reinit_mesh();
   geometry = nullptr;
+  guess.forget();
 }
 
 template <int dim>
@@ -71,7 +94,7 @@ void StokesSolver<dim>::prepare(const CutGeometry<dim> &new_geometry, const Func
   for (unsigned int t = 0; t < terms.size(); ++t)
     terms[t]->add_matrix(context(t), wall_right_side);
   wall_right_side.compress(VectorOperation::add);
-  system.factorise();
+  system.factorise(space.corner_unknown());
 }
 
 template <int dim>
@@ -92,7 +115,9 @@ void StokesSolver<dim>::solve()
   if (with_unit_force < terms.size())
     terms[with_unit_force]->add_unit_force(context(with_unit_force), right_sides[1]);
   std::vector<LinearSystem::Vector> solutions(right_sides.size(), system.make_vector());
+  guess.recall(space, solutions);
   system.solve(right_sides, solutions);
+  guess.remember(space, solutions);
   solution.swap(solutions[0]); // a copy would not have the ghosts
   if (with_unit_force < terms.size())
     add_unit_force_flow(with_unit_force, right_sides[1], solutions[1]);

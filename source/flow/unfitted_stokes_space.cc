@@ -2,6 +2,7 @@
 #include <gemmule/base/exceptions.h>
 #include <gemmule/flow/unfitted_stokes_space.h>
 
+#include <deal.II/base/mpi.h>
 #include <deal.II/dofs/dof_tools.h>
 #include <deal.II/fe/fe_q.h>
 
@@ -167,8 +168,6 @@ void UnfittedStokesSpace<dim>::reinit(const CutGeometry<dim> &geometry,
   outside_constraints.reinit(hanging_nodes.get_local_lines());
   outside_constraints.merge(hanging_nodes);
   boundary_data.constrain(boundary_velocity, outside_constraints);
-  if (corner_pressure != numbers::invalid_dof_index)
-    outside_constraints.add_line(corner_pressure);
   outside_constraints.close();
 
   std::vector<unsigned int> part_of_component(dim, velocity_block);
@@ -189,6 +188,14 @@ void UnfittedStokesSpace<dim>::renumber(const BlockNumbering &numbering)
 {
   for (unsigned int fluid = 0; fluid < 2; ++fluid)
     active[fluid].renumber(numbering, fluid);
+}
+
+template <int dim>
+types::global_dof_index UnfittedStokesSpace<dim>::corner_unknown() const
+{
+  const auto here =
+      corner_pressure == numbers::invalid_dof_index ? corner_pressure : active[1].number(corner_pressure);
+  return Utilities::MPI::min(here, communicator());
 }
 
 template class UnfittedStokesSpace<2>;

@@ -28,6 +28,22 @@ void Flow::add_parameters(dealii::ParameterHandler &prm)
       "g_p in (g_p/eta) h^3 [d_n p][d_n q] on the faces of cut cells (dimensionless). Source: Hansbo, "
       "Larson, Zahedi (2014).",
       Range::positive());
+  section.add(
+      "Solver", solver,
+      "How the equations of the flow are solved. 'direct': factorisation by MUMPS. 'iterative': FGMRES "
+      "with multigrid, which needs much less memory and time in 3D. 'automatic': whichever is faster.",
+      {{"automatic", FlowSolver::automatic},
+       {"direct", FlowSolver::direct},
+       {"iterative", FlowSolver::iterative}});
+  section.add("Solver tolerance", solver_tolerance,
+              "The iterative solver stops when the residual has fallen to this part of the right side "
+              "(dimensionless). The tension that pressure balances is most of the right side, so that the "
+              "velocity needs small values: 1e-6 leaves errors of 1e-4 and more in it.",
+              Range{0., 1e-2, true});
+  section.add("Largest number of solver iterations", largest_number_of_iterations,
+              "Where the iterative solver needs more iterations, the flow is solved directly if the memory "
+              "allows it; otherwise the step is repeated with a smaller step size.",
+              Range::between(1, 10000));
 }
 
 void Flow::check() const

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <gtest/gtest.h>
+#include <regex>
 #include <string>
 #include <vector>
 
@@ -42,6 +43,17 @@ protected:
     EXPECT_EQ(result.err.rfind(prefix), 0u) << "more than one message:\n" << result.err;
     EXPECT_EQ(result.err.find('\n'), result.err.size() - 1) << "not a message of one line:\n" << result.err;
     return result.err.substr(0, result.err.find('\n'));
+  }
+
+  /** --check has to say that all is well, and how large the case is. */
+  static void expect_accepted(const Result &checked, const std::string &name)
+  {
+    const std::string verdict = name + ": the parameters are valid.\n";
+    EXPECT_EQ(checked.out.substr(0, verdict.size()), verdict);
+    const std::regex size(
+        "\\d+ cells, \\d+ unknowns of the flow, which is solved by MUMPS \\(\\d+ MB\\); \\d+ MB of memory in "
+        "all\\. With 'Mesh/Largest number of cells' = \\d+ it would be about [\\d.]+ (MB|GB)\\.\n");
+    EXPECT_TRUE(std::regex_match(checked.out.substr(verdict.size()), size)) << checked.out;
   }
 
   const TemporaryDirectory directory;

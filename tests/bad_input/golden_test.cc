@@ -6,7 +6,7 @@
 // needs no code: add the file or the line and run this program with GEMMULE_WRITE_MESSAGES=1 in the
 // environment, which writes the present messages into the sources; then read what it has written as somebody
 // would who sees the message for the first time: does it say what is wrong, where, and what to do?
-#include <gemmule/application/vesicle_problem.h>
+#include <gemmule/application/case_check.h>
 #include <gemmule/base/exceptions.h>
 #include <gemmule/parameters/all_parameters.h>
 #include <gemmule/parameters/text.h>

@@ -8,6 +8,7 @@
 
 #include "support/circle_flow.h"
 #include "support/flow_on_circle.h"
+#include "support/sphere_flow.h"
 
 using namespace dealii;
 using namespace Gemmule;
@@ -167,4 +168,35 @@ TEST(ParallelStokesConvergence, NoSlipBox)
   }
   EXPECT_NEAR(std::abs(tangential) / (numbers::PI * flow.radius), 0.09923756, 2e-4 * 0.09923756);
   EXPECT_NEAR(std::abs(radial) / (numbers::PI * flow.radius), 0.02832717, 5e-4 * 0.02832717);
+}
+
+TEST(ParallelStokesConvergence3D, TheFlowOfASphereIsThirdOrder)
+{
+  const Point<3> origin(0.013, 0.007, -0.011);
+  ConvergenceTable table;
+  std::vector<double> result;
+  for (const unsigned int level : {3, 4})
+  {
+    // Cells of half the size around the sphere.
+    const double width = 0.9 * std::sqrt(3.) / std::pow(2., level);
+    FlowOnCircle<3> flow(level, origin, 1.,
+                         [&](const Point<3> &p)
+                         { return std::abs(p.distance(origin) - FlowOnCircle<3>::radius) < width; });
+    const SphereFlow exact(origin, FlowOnCircle<3>::radius, 2, 0.5, 1.);
+    flow.set_tension([&](const Point<3> &p) { return exact.tension(p); });
+    StokesSolver<3> iterative(flow.mesh.triangulation, flow.fluid, Parameters::Flow());
+    iterative.reinit_mesh();
+    iterative.prepare(flow.geometry, exact, {std::make_shared<TensionForce<3>>(flow.tension, 1.)});
+    iterative.solve();
+    result.push_back(flow.error([&](const Point<3> &p) { return exact.velocity(p); }, iterative));
+    table.add_value("1/h", std::pow(2., level));
+    table.add_value("unknowns", iterative.n_unknowns());
+    table.add_value("iterations", iterative.linear_solver_report().iterations);
+    table.add_value("error of <u>", result.back());
+  }
+  table.set_precision("error of <u>", 2);
+  table.set_scientific("error of <u>", true);
+  table.evaluate_convergence_rates("error of <u>", ConvergenceTable::reduction_rate_log2);
+  print(table);
+  EXPECT_GE(std::log2(result[0] / result[1]), 2.7);
 }

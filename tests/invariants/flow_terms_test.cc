@@ -27,8 +27,10 @@ namespace
   class SchurComplementSolver : public LinearSolver
   {
   public:
-    void prepare(const SubassembledMatrix &matrix, const BlockNumbering &numbering) override
+    void prepare(const SubassembledMatrix &matrix, const BlockNumbering &numbering,
+                 const Index fixed) override
     {
+      fixed_pressure = fixed == numbers::invalid_dof_index ? fixed : numbering.block_index(fixed).second;
       view = std::make_unique<BlockView>(matrix, numbering);
       velocity_solver = std::make_unique<TrilinosWrappers::SolverDirect>(control);
       velocity_solver->initialize(view->matrix().block(0, 0));
@@ -49,7 +51,11 @@ namespace
           matrix.block(1, 0).vmult(result, velocity);
           matrix.block(1, 1).vmult(velocity_of_pressure(pressure), pressure);
           result -= scratch;
+          if (result.in_local_range(fixed_pressure))
+            result(fixed_pressure) = pressure(fixed_pressure);
+          result.compress(VectorOperation::insert);
         }
+        types::global_dof_index fixed_pressure;
         mutable BlockVector scratch;
         BlockVector &velocity_of_pressure(const BlockVector &pressure) const
         {
@@ -66,7 +72,11 @@ namespace
         BlockVector pressure_right_side(right_side.block(1));
         matrix.block(1, 0).vmult(pressure_right_side, solution.block(0));
         pressure_right_side -= right_side.block(1);
-        SchurComplement schur{matrix, *velocity_solver, right_side.block(0), right_side.block(0), {}};
+        if (pressure_right_side.in_local_range(fixed_pressure))
+          pressure_right_side(fixed_pressure) = 0.;
+        pressure_right_side.compress(VectorOperation::insert);
+        SchurComplement schur{
+            matrix, *velocity_solver, right_side.block(0), right_side.block(0), fixed_pressure, {}};
         SolverControl iterations(2000, 1e-13 * pressure_right_side.l2_norm());
         SolverGMRES<BlockVector> gmres(iterations, SolverGMRES<BlockVector>::AdditionalData(300));
         gmres.solve(schur, solution.block(1), pressure_right_side, PreconditionIdentity());
@@ -78,8 +88,11 @@ namespace
       }
     }
 
+    Report report() const override { return {}; }
+
   private:
     SolverControl control;
+    types::global_dof_index fixed_pressure = numbers::invalid_dof_index;
     std::unique_ptr<BlockView> view;
     std::unique_ptr<TrilinosWrappers::SolverDirect> velocity_solver;
   };

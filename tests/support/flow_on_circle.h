@@ -33,7 +33,7 @@ struct FlowOnCircle
   FlowOnCircle(const unsigned int level, const Point<dim> &center, const double viscosity_ratio = 1.,
                const std::function<bool(const Point<dim> &)> &refine = {}, const double capillary_number = 1.)
       : mesh(level), center(center), fluid{capillary_number, viscosity_ratio}, interface(mesh.triangulation),
-        geometry(interface.geometry()), solver(mesh.triangulation, fluid, Parameters::Flow())
+        geometry(interface.geometry()), solver(mesh.triangulation, fluid, directly_solved())
   {
     if (refine)
       mesh.refine_where(refine);
@@ -57,6 +57,13 @@ struct FlowOnCircle
       for (const auto &p : cell.surface_points)
         tension.back().push_back(sigma(cell.physical(p)));
     }
+  }
+
+  static Parameters::Flow directly_solved()
+  {
+    Parameters::Flow parameters;
+    parameters.solver = Parameters::FlowSolver::direct;
+    return parameters;
   }
 
   /** The flow that the tension and other @p terms drive. */
@@ -97,13 +104,19 @@ struct FlowOnCircle
   double integrate(const std::function<double(const Point<dim> &, const Tensor<1, dim> &,
                                               const Tensor<1, dim> &)> &f) const
   {
+    return integrate(f, solver);
+  }
+  double integrate(
+      const std::function<double(const Point<dim> &, const Tensor<1, dim> &, const Tensor<1, dim> &)> &f,
+      const StokesSolver<dim> &flow) const
+  {
     double sum = 0.;
     for (unsigned int k = 0; k < geometry.cut_cells().size(); ++k)
     {
       const auto &cell = geometry.cut_cells()[k];
       for (unsigned int q = 0; q < cell.surface_points.size(); ++q)
         sum += cell.surface_weights[q] * f(cell.physical(cell.surface_points[q]), cell.normals[q],
-                                           solver.membrane_velocity()[k].value(cell.surface_points[q]));
+                                           flow.membrane_velocity()[k].value(cell.surface_points[q]));
     }
     return Utilities::MPI::sum(sum, MPI_COMM_WORLD);
   }
@@ -111,8 +124,14 @@ struct FlowOnCircle
   /** L2 error of <u> on the membrane. */
   double error(const std::function<Tensor<1, dim>(const Point<dim> &)> &exact) const
   {
+    return error(exact, solver);
+  }
+  double error(const std::function<Tensor<1, dim>(const Point<dim> &)> &exact,
+               const StokesSolver<dim> &flow) const
+  {
     return std::sqrt(integrate([&](const Point<dim> &p, const Tensor<1, dim> &, const Tensor<1, dim> &u)
-                               { return (u - exact(p)).norm_square(); }));
+                               { return (u - exact(p)).norm_square(); },
+                               flow));
   }
 };
 } // namespace Gemmule::Testing

@@ -8,6 +8,7 @@
 #include <deal.II/base/partitioner.h>
 #include <deal.II/dofs/dof_handler.h>
 #include <deal.II/lac/affine_constraints.h>
+#include <deal.II/lac/la_parallel_vector.h>
 
 #include <memory>
 #include <vector>
@@ -51,6 +52,13 @@ public:
   {
     return numbers[layout->global_to_local(dof)];
   }
+
+  /** Values of the owned dofs from a vector of the system; zero for dofs without a number. */
+  void copy_to_dofs(const dealii::LinearAlgebra::distributed::Vector<double> &solution,
+                    std::vector<double> &by_dof) const;
+  /** The reverse, for the dofs that have a number; the mesh must still be the same. */
+  void copy_from_dofs(const std::vector<double> &by_dof,
+                      dealii::LinearAlgebra::distributed::Vector<double> &solution) const;
 
   /** Appends local dofs to an element; CondensedIndices::sort() must follow once all are appended. */
   void append(const std::vector<dealii::types::global_dof_index> &dofs, CondensedIndices &element) const;

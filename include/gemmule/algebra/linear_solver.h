@@ -6,6 +6,7 @@
 
 #include <deal.II/lac/la_parallel_vector.h>
 
+#include <string>
 #include <vector>
 
 namespace Gemmule
@@ -14,6 +15,7 @@ namespace Gemmule
 class LinearSolver
 {
 public:
+  using Index = BlockNumbering::Index;
   using Vector = dealii::LinearAlgebra::distributed::Vector<double>;
 
   virtual ~LinearSolver() = default;
@@ -22,9 +24,11 @@ public:
    * Everything that depends on the matrix only. It is called whenever values have changed; what depends on
    * the pattern alone is kept while SubassembledMatrix::pattern_version() stays. Matrix and numbering must
    * stay unchanged as long as solve() is called. Collective.
+   * @param fixed the number of an unknown that is zero, and whose equation is left out: one for which the
+   * constant of its block stands that the matrix does not determine. invalid_dof_index: none
    * @throws SimulationError on all ranks when that is impossible
    */
-  virtual void prepare(const SubassembledMatrix &matrix, const BlockNumbering &numbering) = 0;
+  virtual void prepare(const SubassembledMatrix &matrix, const BlockNumbering &numbering, Index fixed) = 0;
 
   /**
    * Solves for several right sides at once.
@@ -34,5 +38,15 @@ public:
    * @throws SimulationError on all ranks
    */
   virtual void solve(const std::vector<Vector> &right_sides, std::vector<Vector> &solutions) = 0;
+
+  /** What there is to say about the last prepare() and solve(). */
+  struct Report
+  {
+    std::string method;          ///< for the log
+    unsigned int iterations = 0; ///< for all right sides together; 0: a direct solver
+    double memory = 0.;          ///< of factors, or of preconditioner and basis, on this rank; in bytes
+    std::string warning;         ///< empty: none
+  };
+  virtual Report report() const = 0;
 };
 } // namespace Gemmule

@@ -73,8 +73,15 @@ public:
   /** The local dofs of an element from a ghosted solution; @p homogeneous: without g. */
   void gather(unsigned int element, const Vector &solution, double *local, bool homogeneous = false) const;
 
-  /** Hands the matrix to the solver. Throws SimulationError. Collective. */
-  void factorise() { solver->prepare(sum, blocks); }
+  /**
+   * Hands the matrix to the solver. Collective.
+   * @param fixed see LinearSolver::prepare()
+   * @throws SimulationError
+   */
+  void factorise(const dealii::types::global_dof_index fixed = dealii::numbers::invalid_dof_index)
+  {
+    solver->prepare(sum, blocks, fixed);
+  }
 
   /**
    * @param right_sides sums of this rank's elements: completed in here
@@ -83,6 +90,9 @@ public:
   void solve(std::vector<Vector> &right_sides, std::vector<Vector> &solutions);
   /** The same for one, without a guess. */
   Vector solve(Vector right_side);
+
+  /** On the last factorise() and solve(). */
+  LinearSolver::Report solver_report() const { return solver->report(); }
 
   /** A x; @p x ghosted. Complete on its owners. Collective. */
   Vector vmult(const Vector &x) const;

@@ -112,11 +112,4 @@ private:
   std::unique_ptr<TrialSystem> trials; ///< system, as attempts see it
   std::unique_ptr<StepAttempts> attempts;
 };
-
-/**
- * Checks what needs more than the parameters themselves: the initial membrane. @throws UserError.
- * @return warnings. Collective.
- */
-template <int dim>
-std::vector<std::string> check_case(const AllParameters &parameters, MPI_Comm communicator);
 } // namespace Gemmule

@@ -100,6 +100,8 @@ public:
   const MembraneBending<dim> *get_bending() const { return bending.get(); }
   /** Numerical rigidity that negative tension asks for in the next step (dimensionless; 0: none). */
   double grid_scale_rigidity() const { return bending.grid_scale().value(); }
+  /** Lets the next flow be that of a run that is resumed here: an iterative solver begins from zero. */
+  void forget_last_flow() { membrane_flow.forget_last_flow(); }
   const StokesSolver<dim> &get_flow() const { return membrane_flow.solver(); }
   const MembraneModel &get_model() const { return model; }
   /** Tension and flow, and how they are coupled. */

@@ -36,6 +36,9 @@ public:
   /** Call after every change of the mesh. Collective. */
   void reinit_mesh() { stokes.reinit_mesh(); }
 
+  /** See StokesSolver. */
+  void forget_last_flow() { stokes.forget_last_flow(); }
+
   /** The membrane whose flow is asked for. */
   struct Membrane
   {

@@ -2,7 +2,10 @@
 #pragma once
 
 #include <gemmule/flow/extra_field.h>
+#include <gemmule/flow/extra_field_preconditioner.h>
 #include <gemmule/flow/interface_velocity.h>
+
+#include <memory>
 
 namespace Gemmule
 {
@@ -35,6 +38,16 @@ public:
 
   /** The space of a trace field that becomes a further unknown of the system; nullptr: none. */
   virtual const TraceSpace<dim> *extra_field_space() const { return nullptr; }
+
+  /**
+   * What an iterative solver takes for the Schur complement of the extra field; nullptr: its block of the
+   * matrix, which is good where the field has little effect on itself by way of the flow. Collective.
+   */
+  virtual std::unique_ptr<ExtraFieldPreconditioner>
+  extra_field_preconditioner(const FluidPair & /*fluids*/) const
+  {
+    return nullptr;
+  }
 
   /** Adds to the matrix, and to @p right_side what that makes of velocities at the walls. */
   virtual void add_matrix(const FlowTermContext<dim> &, Vector & /*right_side*/) const {}

@@ -39,6 +39,8 @@ public:
 
   /** The space of z. */
   const TraceSpace<dim> *extra_field_space() const override { return space.get(); }
+  std::unique_ptr<ExtraFieldPreconditioner>
+  extra_field_preconditioner(const FluidPair &fluids) const override;
   void add_matrix(const FlowTermContext<dim> &context, Vector &right_side) const override;
   /** The part of u_old. */
   void add_right_side(const FlowTermContext<dim> &context, Vector &right_side) const override;

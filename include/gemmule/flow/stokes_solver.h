@@ -3,6 +3,7 @@
 
 #include <gemmule/flow/extra_field.h>
 #include <gemmule/flow/flow_error_estimator.h>
+#include <gemmule/flow/flow_guess.h>
 #include <gemmule/flow/flow_term.h>
 #include <gemmule/flow/interface_velocity.h>
 #include <gemmule/flow/stokes_assembler.h>
@@ -13,6 +14,8 @@
 
 namespace Gemmule
 {
+struct FlowStructure;
+
 /**
  * Stokes flow of the two fluids, driven by terms on the membrane (FlowTerm) and the velocity on the boundary
  * of the box (doc/method-flow.md).
@@ -29,13 +32,18 @@ public:
 
   /**
    * The triangulation must outlive this; its cells are cubes.
-   * @param linear_solver nullptr: the direct solver
+   * @param linear_solver nullptr: what @p discretisation says
    */
   StokesSolver(const dealii::parallel::distributed::Triangulation<dim> &triangulation,
                const Parameters::Fluid &fluid, const Parameters::Flow &discretisation,
                std::unique_ptr<LinearSolver> linear_solver = nullptr);
+  StokesSolver(const StokesSolver &) = delete; // the linear solver knows this
+  StokesSolver &operator=(const StokesSolver &) = delete;
 
   void reinit_mesh();
+  /** Lets an iterative solver begin the next flow from zero, not from the last flow: then the past does not
+   * matter. */
+  void forget_last_flow() { guess.forget(); }
 
   /**
    * Assembles the matrix, and hands it to the linear solver. @p geometry must stay unchanged as long as
@@ -83,11 +91,18 @@ public:
   /** The Taylor-Hood space of interpolate(): dim velocity components, then the pressure. */
   const dealii::DoFHandler<dim> &dof_handler() const { return space.dof_handler(); }
 
+  /** On the solution of the equations. */
+  LinearSolver::Report linear_solver_report() const { return system.solver_report(); }
+
   /** The equations of the last prepare(), in blocks (FlowBlock), and their solution, ghosted. */
   const LinearSystem &linear_system() const { return system; }
   const LinearSystem::Vector &unknowns() const { return solution; }
 
 private:
+  /** @p linear_solver, or what @p discretisation says, with access to find_structure(). */
+  std::unique_ptr<LinearSolver> connect(std::unique_ptr<LinearSolver> linear_solver,
+                                        const Parameters::Flow &discretisation);
+  std::unique_ptr<const FlowStructure> find_structure() const;
   /** Numbers all unknowns, and adds the elements of flow and extra fields. */
   void set_up_system();
   FlowTermContext<dim> context(unsigned int term);
@@ -99,6 +114,7 @@ private:
   UnfittedStokesSpace<dim> space;
   StokesAssembler<dim> assembler;
   LinearSystem system;
+  FlowGuess<dim> guess;
   InterfaceVelocity<dim> interface_velocity;
   StokesSolution<dim> bulk;
   const CutGeometry<dim> *geometry = nullptr;

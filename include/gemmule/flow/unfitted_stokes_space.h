@@ -22,7 +22,8 @@ namespace Gemmule
  * DoFHandler, of whose dofs each fluid has its own copy, active on the cells that the fluid touches. Each
  * fluid is a field of two parts, velocity and pressure (FlowBlock).
  *
- * The pressure is fixed up to the one constant by a zero at the lower corner of the box.
+ * The equations determine the pressure up to a constant. corner_unknown() is an unknown that can be fixed at
+ * zero instead: that of the pressure at the lower corner of the box.
  */
 template <int dim>
 class UnfittedStokesSpace
@@ -46,13 +47,15 @@ public:
   const dealii::AffineConstraints<double> &hanging_node_constraints() const { return hanging_nodes; }
   const ActiveDofs<dim> &active_dofs(unsigned int fluid) const { return active[fluid]; }
 
-  /** Velocities and pressures of both fluids on all ranks. */
-  dealii::types::global_dof_index n_unknowns() const { return active[0].size() + active[1].size(); }
+  /** Velocities and pressures of both fluids on all ranks, but for the constant of the pressure. */
+  dealii::types::global_dof_index n_unknowns() const { return active[0].size() + active[1].size() - 1; }
 
   /** Adds the two fluids as the first fields of a system. */
   void add_fields(BlockNumbering &numbering) const;
   /** Lets active_dofs() have the numbers of that system, which is closed now. */
   void renumber(const BlockNumbering &numbering);
+  /** The number of the pressure at the lower corner of the box after renumber(), on all ranks. Collective. */
+  dealii::types::global_dof_index corner_unknown() const;
 
   /** Locally owned cells by active_cell_index, in the order of the mesh. */
   const std::vector<unsigned int> &owned_cells() const { return owned; }

@@ -8,7 +8,16 @@ class ParameterHandler;
 
 namespace Gemmule::Parameters
 {
-/** Section "Flow discretisation": penalties of the unfitted Stokes method (doc/method-flow.md). */
+/** How the linear equations of the flow are solved. */
+enum class FlowSolver
+{
+  automatic, ///< whatever is faster (doc/performance.md)
+  direct,
+  iterative
+};
+
+/** Section "Flow discretisation": penalties of the unfitted Stokes method, and the solution of its equations
+ * (doc/method-flow.md). */
 struct Flow
 {
   /** gamma of (gamma eta_Gamma / h) [u].[v]. */
@@ -19,6 +28,10 @@ struct Flow
   double velocity_curvature_ghost_penalty = 0.001;
   /** g_p of (g_p / eta) h^3 [d_n p][d_n q]. */
   double pressure_ghost_penalty = 0.01;
+  FlowSolver solver = FlowSolver::automatic;
+  /** Of the iterative solver: Euclidean norm of the residual by that of the right side. */
+  double solver_tolerance = 1e-8;
+  unsigned int largest_number_of_iterations = 300;
 
   void add_parameters(dealii::ParameterHandler &prm);
   void check() const;
